@@ -1,0 +1,3 @@
+//! The command `lobe`.
+
+fn main() {}

@@ -1,0 +1,140 @@
+//! The number types: one small trait, [`Real`], that every formula of this crate is written over.
+//!
+//! A model may use only what `Real` offers: arithmetic, comparisons that give a *mask*, [`select`](Real::select) and a
+//! few elementary functions. It never branches on a value, never converts one to a plain float, never allocates and
+//! never indexes. So the same source serves a scalar, a bundle of SIMD lanes, an interval or a recorded expression.
+//!
+//! # Implementing `Real`
+//!
+//! Mark every method `#[inline(always)]`, and override nothing that is provided unless the result stays the same:
+//! one method that is left out of line costs more than the formula it stands in.
+
+mod double;
+mod elementary;
+mod single;
+
+pub use elementary::Binary32;
+
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+/// The answer to a comparison: `bool` for a scalar, a lane mask for SIMD, a node for a recorded expression.
+///
+/// A mask can be combined and handed to [`Real::select`]; it cannot be branched on.
+pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {}
+
+impl Mask for bool {}
+
+/// A real number, as far as shading needs one.
+///
+/// # Constants
+///
+/// A constant needs a witness: [`x.lift(c)`](Real::lift) is "the constant `c` in the shape of `x`". A static
+/// conversion cannot be written for types that carry a token (SIMD levels, expression arenas), and constants are
+/// `f64` so that the reference loses nothing. [`plus`](Real::plus) and [`times`](Real::times) take a constant
+/// directly, so that `(q + 2) / 2π` is written `q.plus(2.0).times(1.0 / TAU)`.
+///
+/// # NaN
+///
+/// Decided once, for every number type:
+///
+/// - arithmetic and elementary functions hand NaN on;
+/// - every comparison with NaN is false (only [`ne`](Real::ne) is true);
+/// - [`max`](Real::max) and [`min`](Real::min) return the *receiver* unless the argument is strictly beyond it, so
+///   `x.max(bound)` keeps a NaN in `x` and ignores one in `bound`;
+/// - [`select`](Real::select) returns exactly the operand that the mask names.
+///
+/// So a value that must not hide NaN is written `select(z <= 0, 0, f)`, never `select(z > 0, f, 0)`.
+pub trait Real:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// What a comparison gives.
+    type Mask: Mask;
+
+    /// The constant `c`, rounded to this type and in the shape of `self` (whose value does not matter).
+    fn lift(self, c: f64) -> Self;
+
+    /// `self < other`; false if either is NaN.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `self <= other`; false if either is NaN.
+    fn le(self, other: Self) -> Self::Mask;
+    /// `self == other`; false if either is NaN. `-0 == +0`.
+    fn eq(self, other: Self) -> Self::Mask;
+    /// `a` where the mask is true, `b` elsewhere, bit for bit.
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+
+    /// `|self|`.
+    fn abs(self) -> Self;
+    /// `√self`, correctly rounded; NaN below zero.
+    fn sqrt(self) -> Self;
+    /// The magnitude of `self` with the sign bit of `sign`.
+    fn copysign(self, sign: Self) -> Self;
+
+    /// `2^self`.
+    ///
+    /// In `f32`: within 1 ulp. Results below the smallest normal number become 0 (see `docs/numerics.md`).
+    fn exp2(self) -> Self;
+    /// `log₂ self`; `-∞` at zero, NaN below.
+    ///
+    /// In `f32`: within 1 ulp.
+    fn log2(self) -> Self;
+    /// `log₂(1 + self)`, accurate for small arguments too; `-∞` at −1, NaN below.
+    ///
+    /// In `f32`: within 1 ulp.
+    fn log2_1p(self) -> Self;
+    /// `self^exponent` for `self ≥ 0`; `x^0 = 1` for every `x` that is not NaN, `0^y = 0` for `y > 0`.
+    ///
+    /// A negative base gives NaN, whatever the exponent: shading has no use for its sign, and a NaN is seen where a
+    /// plausible colour is not. In `f32`: within 2 ulp, and results below the smallest normal number become 0.
+    fn pow(self, exponent: Self) -> Self;
+    /// `(sin self, cos self)`, the angle in radians.
+    ///
+    /// In `f32`: each within 1 ulp for `|self| ≤ 32768`; NaN beyond, where the angle itself is no longer known to
+    /// three digits.
+    fn sin_cos(self) -> (Self, Self);
+
+    /// `self > other`; false if either is NaN.
+    #[inline(always)]
+    fn gt(self, other: Self) -> Self::Mask {
+        other.lt(self)
+    }
+    /// `self >= other`; false if either is NaN.
+    #[inline(always)]
+    fn ge(self, other: Self) -> Self::Mask {
+        other.le(self)
+    }
+    /// `self != other`; true if either is NaN.
+    #[inline(always)]
+    fn ne(self, other: Self) -> Self::Mask {
+        !self.eq(other)
+    }
+    /// The larger of the two: `bound` if `bound > self`, else `self`. A NaN in `self` stays.
+    #[inline(always)]
+    fn max(self, bound: Self) -> Self {
+        Self::select(self.lt(bound), bound, self)
+    }
+    /// The smaller of the two: `bound` if `bound < self`, else `self`. A NaN in `self` stays.
+    #[inline(always)]
+    fn min(self, bound: Self) -> Self {
+        Self::select(bound.lt(self), bound, self)
+    }
+    /// `self + c`.
+    #[inline(always)]
+    fn plus(self, c: f64) -> Self {
+        self + self.lift(c)
+    }
+    /// `self · c`.
+    #[inline(always)]
+    fn times(self, c: f64) -> Self {
+        self * self.lift(c)
+    }
+    /// `1 / self`.
+    #[inline(always)]
+    fn recip(self) -> Self {
+        self.lift(1.0) / self
+    }
+    /// `self · self`.
+    #[inline(always)]
+    fn squared(self) -> Self {
+        self * self
+    }
+}
