@@ -19,6 +19,15 @@ impl Lambert {
         }
         self.albedo * FRAC_1_PI
     }
+
+    /// `f_r(l, v)`, NaN if a component of either direction is.
+    #[inline(always)]
+    pub fn eval_keeping_nan(&self, l: Vec3, v: Vec3) -> Vec3 {
+        if l.is_nan() || v.is_nan() {
+            return Vec3::NAN;
+        }
+        self.eval(l, v)
+    }
 }
 
 /// `ks (q+2)/2π (r·v)^q`.

@@ -12,10 +12,14 @@ use super::Real;
 ///
 /// The three methods work on the bits. They are stated in floating-point terms, so that integers never show.
 pub trait Binary32: Real {
-    /// `self · 2ⁿ`, for `shifter = 1.5·2²³ + n` with integer `n` (see [`round_shifter`]), where `self` and the result
-    /// are normal numbers. Adds `n` to the exponent field.
+    /// `self · 2ⁿ`, for `shifter = 1.5·2²³ + n` with integer `n`, where `self` and the result are normal numbers. Adds
+    /// the low bits of `shifter`, which hold `n`, to the exponent field.
     fn add_exponent(self, shifter: Self) -> Self;
-    /// The integer `k` with `self / (other · 2ᵏ)` in [2/3, 3/2], for two positive normal numbers.
+    /// `1.5·2²³ + k`, with the integer `k` for which `self / (other · 2ᵏ)` is in [2/3, 3/2], for two positive normal
+    /// numbers.
+    ///
+    /// In this form, because `k` then stands in the low bits and no conversion from an integer is needed: on x86 that
+    /// instruction waits for the register's last user, and chained the evaluations of a loop to each other.
     fn exponent_over(self, other: Self) -> Self;
     /// `self` with the lowest twelve bits of the significand cleared: two such numbers multiply exactly.
     fn high_part(self) -> Self;
@@ -120,7 +124,7 @@ fn log2_of_positive<F: Binary32>(x: F) -> (F, F) {
     let scaled = F::select(subnormal, x.times(TWO_POW_24), x);
     let correction = F::select(subnormal, x.lift(24.0), x.lift(0.0));
     let one = x.lift(1.0);
-    let k = scaled.exponent_over(one);
+    let k = scaled.exponent_over(one).plus(-SHIFT);
     let m = scaled.add_exponent((-k).plus(SHIFT));
     log2_parts(m, x.lift(0.0), k - correction)
 }
@@ -152,7 +156,7 @@ pub fn log2_1p<F: Binary32>(x: F) -> F {
     let x_scaled = F::select(large, x.times(1.0 / TWO_POW_64), x);
     let correction = F::select(large, x.lift(64.0), zero);
     let (u, c) = two_sum(x_scaled, F::select(large, zero, one));
-    let k = u.exponent_over(one);
+    let k = u.exponent_over(one).plus(-SHIFT);
     let down = (-k).plus(SHIFT);
     let (hi, lo) = log2_parts(u.add_exponent(down), c * one.add_exponent(down), k + correction);
     // Near zero the argument is all there is: in log2_parts m = 1 and c = x, and the two parts lose nothing but the
@@ -172,8 +176,9 @@ const TWO_POW_MINUS_30: f64 = 1.0 / 1_073_741_824.0;
 #[inline(always)]
 pub fn log2_1p_div<F: Binary32>(a: F, b: F) -> F {
     let (u, c) = two_sum(a, b);
-    let k = u.exponent_over(b);
-    let b_scaled = b.add_exponent(k.plus(SHIFT));
+    let shifter = u.exponent_over(b);
+    let k = shifter.plus(-SHIFT);
+    let b_scaled = b.add_exponent(shifter);
     let s = ((u - b_scaled) + c) / (u + b_scaled);
     let z = s * s;
     let p = z.lift(LOG2_Q2);
