@@ -53,6 +53,10 @@ impl Real for f64 {
         libm::log1p(self) * core::f64::consts::LOG2_E
     }
     #[inline(always)]
+    fn log2_1p_div(self, denominator: Self) -> Self {
+        Real::log2_1p(self / denominator)
+    }
+    #[inline(always)]
     fn pow(self, exponent: Self) -> Self {
         // C's `pow` has values for negative bases, for `1^NaN` and for `NaN^0`; ours are NaN in every number type.
         if self < 0.0 || self.is_nan() || exponent.is_nan() {

@@ -1,0 +1,103 @@
+//! The lobes: each a value with [`eval`](Brdf::eval) and [`eval_cos`](Brdf::eval_cos), one file a model.
+//!
+//! Directions are in the local frame of the surface: `n = +z`, `l` to the light, `v` to the viewer, both of unit
+//! length and pointing away. See [`Frame`](crate::Frame) for the way there from world space.
+//!
+//! | lobe | what it is | reciprocal | energy |
+//! |---|---|---|---|
+//! | [`Lambert`] | `ρ/π` | to the last bit | albedo `ρ` exactly |
+//! | [`Phong`] | mirror lobe `(r·v)^q`, normalised | to the last bit | albedo at most `ks`, for every `q` |
+//! | [`BlinnPhong`] | half-vector lobe `(n·h)^q` | to the last bit | by its [`Normalization`] |
+//! | [`Mirror`] | a delta: direction and weight | | weight `ks` |
+//! | [`Sum`] | the sum of two lobes, written `a + b` | if both are | the sum |
+//! | [`Black`] | no lobe at all | to the last bit | 0 |
+//!
+//! The lecture's unnormalised highlights are in [`illumination`](crate::illumination).
+
+mod blinn_phong;
+mod lambert;
+mod mirror;
+mod phong;
+pub(crate) mod power;
+mod sum;
+
+pub use blinn_phong::{BlinnPhong, CommonNormalization, NormalIncidence, Normalization};
+pub use lambert::Lambert;
+pub use mirror::{Delta, Mirror};
+pub use phong::Phong;
+pub use power::Shininess;
+pub use sum::{Black, Sum};
+
+use crate::color::Rgb;
+use crate::number::Real;
+use crate::vector::Vec3;
+
+/// A bidirectional reflectance distribution function (Nicodemus et al. 1977).
+///
+/// For every lobe of this crate, in every number type:
+///
+/// - below the horizon, `l.z ≤ 0` or `v.z ≤ 0`, the value is 0;
+/// - inside the declared domain of its parameters, for cosines from 1 down to 1e-20, it is finite and not negative;
+/// - a NaN or an infinity in any component of `l` or `v` gives NaN in every channel;
+/// - lengths that are off by rounding change the value by rounding, not more.
+///
+/// The trait can be made into an object: `&dyn Brdf<f64>` is a material of which nothing is known.
+pub trait Brdf<R: Real> {
+    /// `f_r(l, v)` in sr⁻¹, **without** the cosine.
+    fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R>;
+
+    /// `f_r(l, v) · max(0, n·l)` in sr⁻¹: what a renderer multiplies with the irradiance.
+    ///
+    /// It stays finite to the horizon where `f_r` itself may grow without bound.
+    #[inline(always)]
+    fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.eval(l, v) * l.z.max(l.z.lift(0.0))
+    }
+
+    /// `sum + eval(l, v)`. [`Black`] returns `sum` itself, so that a lobe that is absent costs nothing.
+    #[inline(always)]
+    fn add_to(&self, sum: Rgb<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        sum + self.eval(l, v)
+    }
+
+    /// `sum + eval_cos(l, v)`.
+    #[inline(always)]
+    fn add_cos_to(&self, sum: Rgb<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        sum + self.eval_cos(l, v)
+    }
+}
+
+impl<R: Real, B: Brdf<R> + ?Sized> Brdf<R> for &B {
+    #[inline(always)]
+    fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        B::eval(self, l, v)
+    }
+    #[inline(always)]
+    fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        B::eval_cos(self, l, v)
+    }
+    #[inline(always)]
+    fn add_to(&self, sum: Rgb<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        B::add_to(self, sum, l, v)
+    }
+    #[inline(always)]
+    fn add_cos_to(&self, sum: Rgb<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        B::add_cos_to(self, sum, l, v)
+    }
+}
+
+/// `value` where both directions are above the horizon, 0 elsewhere, NaN where a direction holds one.
+#[inline(always)]
+pub(crate) fn above_horizon<R: Real>(l: Vec3<R>, v: Vec3<R>, value: Rgb<R>) -> Rgb<R> {
+    let below = l.z.le(l.z.lift(0.0)) | v.z.le(v.z.lift(0.0));
+    Rgb::select(below, Rgb::splat(nan_or_zero(l, v)), value)
+}
+
+/// 0, or NaN if a component of either direction is NaN or infinite.
+///
+/// A zero that is selected below the horizon would hide a NaN in the other components.
+#[inline(always)]
+pub(crate) fn nan_or_zero<R: Real>(l: Vec3<R>, v: Vec3<R>) -> R {
+    let sum = l + v;
+    (sum.x + sum.y + sum.z).times(0.0)
+}

@@ -1,0 +1,267 @@
+//! Elementary functions for 32-bit floats, made only of operations that IEEE 754 rounds exactly, without fusing.
+//!
+//! They are generic over [`Binary32`], so that lanes run the same operations in the same order as the scalar and give
+//! the same bits. No table, no branch, no integer beyond the three bit operations of that trait. The polynomials come
+//! from `tools/minimax.py`, which prints them with their bounds; `lobe sweep` tries all 2³² arguments.
+
+use super::Real;
+
+/// A 32-bit binary float, or a bundle of them: what the elementary functions need beyond [`Real`].
+///
+/// The three methods work on the bits. They are stated in floating-point terms, so that integers never show.
+pub trait Binary32: Real {
+    /// `self · 2ⁿ`, for `shifter = 1.5·2²³ + n` with integer `n` (see [`round_shifter`]), where `self` and the result
+    /// are normal numbers. Adds `n` to the exponent field.
+    fn add_exponent(self, shifter: Self) -> Self;
+    /// The integer `k` with `self / (other · 2ᵏ)` in [2/3, 3/2], for two positive normal numbers.
+    fn exponent_over(self, other: Self) -> Self;
+    /// `self` with the lowest twelve bits of the significand cleared: two such numbers multiply exactly.
+    fn high_part(self) -> Self;
+}
+
+/// 1.5·2²³: adding it rounds to an integer, which then stands in the low bits of the sum.
+const SHIFT: f64 = 12_582_912.0;
+/// Results of `exp2` below 2^−126, the smallest normal number, become 0: subnormals are two to five times slower on
+/// most machines, and whoever reads a shading value of 1e-38 wants 0.
+const EXP2_MIN: f64 = -126.0;
+/// 2^128 is the first power beyond the range.
+const EXP2_MAX: f64 = 128.0;
+
+/// `1.5·2²³ + round(x)`, for `|x| < 2²²`; ties to even.
+#[inline(always)]
+fn round_shifter<F: Binary32>(x: F) -> F {
+    x.plus(SHIFT)
+}
+
+/// `2^x`, within 1 ulp on [−126, 128); 0 below, infinite above.
+#[inline(always)]
+pub(super) fn exp2<F: Binary32>(x: F) -> F {
+    exp2_of_sum(x, x.lift(0.0))
+}
+
+/// `2^(hi + lo)` for `|lo|` far below `|hi|`.
+#[inline(always)]
+fn exp2_of_sum<F: Binary32>(hi: F, lo: F) -> F {
+    // Split off the integer: exact, since |hi| < 2^22 wherever the result is used.
+    let shifter = round_shifter(hi);
+    let r = (hi - shifter.plus(-SHIFT)) + lo;
+    // 2^r = 1 + r ln 2 + r² Q(r) on [−1/2, 1/2].
+    let q = r.lift(0.000158203649335);
+    let q = (q * r).plus(0.00134182034526);
+    let q = (q * r).plus(0.00961706321687);
+    let q = (q * r).plus(0.0555027239025);
+    let q = (q * r).plus(0.24022655189);
+    // What 1 + r ln 2 rounds off is added last. Without it the error is 1.04 ulp.
+    let linear = r.times(0.693147242069);
+    let head = linear.plus(1.0);
+    let tail = (linear - head.plus(-1.0)) + q * (r * r);
+    let value = (head + tail).add_exponent(shifter);
+    // Outside the range the exponent field has wrapped around. NaN times infinity stays NaN.
+    let x = hi + lo;
+    let in_range = x.ge(x.lift(EXP2_MIN)) & x.lt(x.lift(EXP2_MAX));
+    let out_of_range = F::select(x.lt(x.lift(EXP2_MIN)), x.lift(0.0), x.times(f64::INFINITY));
+    F::select(in_range, value, out_of_range)
+}
+
+/// `log₂(m + c) + k`, as a sum of two, for `m + c` in [3/4, 3/2] with `c` below the last place of `m`.
+///
+/// With `s = (m − 1)/(m + 1)`, `log₂ m = 2/(3 ln 2) · s (3 + s² + s⁴ R(s²))`. Everything that matters is carried in
+/// two parts, the high ones with twelve bits so that their products are exact (the method of Cody and Waite, as in the
+/// single-precision `pow` of Sun's fdlibm). The sum is good to about 2⁻³⁴ of its value.
+#[inline(always)]
+fn log2_parts<F: Binary32>(m: F, c: F, k: F) -> (F, F) {
+    let n = m.plus(-1.0);
+    let d = m.plus(1.0);
+    let recip = d.recip();
+    // s = s_hi + s_lo.
+    let d_hi = d.high_part();
+    let d_lo = (m - d_hi.plus(-1.0)) + c;
+    let s = (n + c) * recip;
+    let s_hi = s.high_part();
+    let s_lo = (((n - s_hi * d_hi) - s_hi * d_lo) + c) * recip;
+    // 3 + s² + s⁴ R = t_hi + t_lo.
+    let z = s * s;
+    let r = z.lift(LOG2_R3);
+    let r = (r * z).plus(LOG2_R2);
+    let r = (r * z).plus(LOG2_R1);
+    let r = (r * z).plus(LOG2_R0);
+    let r = r * (z * z) + s_lo * (s_hi + s);
+    let z_hi = s_hi * s_hi;
+    let t_hi = ((z_hi + r).plus(3.0)).high_part();
+    let t_lo = r - (t_hi.plus(-3.0) - z_hi);
+    // s (3 + s² + s⁴ R) = p_hi + p_lo.
+    let u = s_hi * t_hi;
+    let w = s_lo * t_hi + t_lo * s;
+    let p_hi = (u + w).high_part();
+    let p_lo = w - (p_hi - u);
+    // Times 2/(3 ln 2), whose high part has eleven bits.
+    let y_hi = p_hi.times(LOG2_SCALE_HI);
+    let y_lo = p_hi.times(LOG2_SCALE_LO) + p_lo.times(LOG2_SCALE);
+    let hi = (y_hi + y_lo + k).high_part();
+    (hi, y_lo - ((hi - k) - y_hi))
+}
+
+// R(s²), minimax on |s| ≤ 1/5.
+const LOG2_R0: f64 = 0.599999904633;
+const LOG2_R1: f64 = 0.428588569164;
+const LOG2_R2: f64 = 0.332280606031;
+const LOG2_R3: f64 = 0.299376577139;
+const LOG2_SCALE: f64 = 2.0 / (3.0 * core::f64::consts::LN_2);
+const LOG2_SCALE_HI: f64 = 0.961669921875;
+const LOG2_SCALE_LO: f64 = LOG2_SCALE - LOG2_SCALE_HI;
+
+/// `log₂ x` as a sum of two, for `x > 0`, subnormal or not.
+#[inline(always)]
+fn log2_of_positive<F: Binary32>(x: F) -> (F, F) {
+    // The exponent field of a subnormal says nothing: scale it up.
+    let subnormal = x.lt(x.lift(f32::MIN_POSITIVE as f64));
+    let scaled = F::select(subnormal, x.times(TWO_POW_24), x);
+    let correction = F::select(subnormal, x.lift(24.0), x.lift(0.0));
+    let one = x.lift(1.0);
+    let k = scaled.exponent_over(one);
+    let m = scaled.add_exponent((-k).plus(SHIFT));
+    log2_parts(m, x.lift(0.0), k - correction)
+}
+
+const TWO_POW_24: f64 = 16_777_216.0;
+
+/// `value` for `0 < x < ∞`; −∞ at 0, NaN below, `x` itself at infinity and NaN.
+#[inline(always)]
+fn log2_special_cases<F: Real>(x: F, value: F) -> F {
+    let zero = x.lift(0.0);
+    let negative_or_x = F::select(x.lt(zero), x.lift(f64::NAN), x);
+    let special = F::select(x.eq(zero), x.lift(f64::NEG_INFINITY), negative_or_x);
+    F::select(x.gt(zero) & x.lt(x.lift(f64::INFINITY)), value, special)
+}
+
+/// `log₂ x`, within 1 ulp.
+#[inline(always)]
+pub(super) fn log2<F: Binary32>(x: F) -> F {
+    let (hi, lo) = log2_of_positive(x);
+    log2_special_cases(x, hi + lo)
+}
+
+/// `log₂(1 + x)`, within 1 ulp.
+#[inline(always)]
+pub(super) fn log2_1p<F: Binary32>(x: F) -> F {
+    let (zero, one) = (x.lift(0.0), x.lift(1.0));
+    // Beyond 2^64 the 1 is no longer felt, and the argument is brought down to where 2^k can be formed.
+    let large = x.gt(x.lift(TWO_POW_64));
+    let x_scaled = F::select(large, x.times(1.0 / TWO_POW_64), x);
+    let correction = F::select(large, x.lift(64.0), zero);
+    let (u, c) = two_sum(x_scaled, F::select(large, zero, one));
+    let k = u.exponent_over(one);
+    let down = (-k).plus(SHIFT);
+    let (hi, lo) = log2_parts(u.add_exponent(down), c * one.add_exponent(down), k + correction);
+    // Near zero the argument is all there is: in log2_parts m = 1 and c = x, and the two parts lose nothing but the
+    // last bit of a subnormal. Below, a result that is a multiple of x rounds once.
+    let value = F::select(x.abs().lt(x.lift(TWO_POW_MINUS_30)), x.times(core::f64::consts::LOG2_E), hi + lo);
+    log2_special_cases(one + x, value)
+}
+
+const TWO_POW_64: f64 = 18_446_744_073_709_551_616.0;
+const TWO_POW_MINUS_30: f64 = 1.0 / 1_073_741_824.0;
+
+/// `log₂(1 + a/b)` with a relative error of at most 5·2⁻²⁴ (4.5 seen), with one division, for `b` and `a + b` from the
+/// smallest normal number to 2¹²⁷.
+///
+/// With `u = a + b` and `2ᵏ` so that `u/(b 2ᵏ)` is near 1, `s = (u − b 2ᵏ)/(u + b 2ᵏ)` and
+/// `log₂(1 + a/b) = k + 2/ln 2 · s + s³ Q(s²)`. The difference is exact, and for `k = 0` it is `a` itself.
+#[inline(always)]
+pub(super) fn log2_1p_div<F: Binary32>(a: F, b: F) -> F {
+    let (u, c) = two_sum(a, b);
+    let k = u.exponent_over(b);
+    let b_scaled = b.add_exponent(k.plus(SHIFT));
+    let s = ((u - b_scaled) + c) / (u + b_scaled);
+    let z = s * s;
+    let p = z.lift(LOG2_Q2);
+    let p = (p * z).plus(LOG2_Q1);
+    let p = (p * z).plus(LOG2_Q0);
+    let p = (p * z).plus(2.0 * core::f64::consts::LOG2_E);
+    p * s + k
+}
+
+// Q(s²), minimax on |s| ≤ 1/5.
+const LOG2_Q0: f64 = 0.96180075407;
+const LOG2_Q1: f64 = 0.576468169689;
+const LOG2_Q2: f64 = 0.438044935465;
+
+/// `x^y`, within 2 ulp, for `x ≥ 0`.
+#[inline(always)]
+pub(super) fn pow<F: Binary32>(x: F, y: F) -> F {
+    let (zero, one) = (x.lift(0.0), x.lift(1.0));
+    let infinity = x.lift(f64::INFINITY);
+    // Beyond 2^40 any base but 1 has left the range, and the split below would overflow.
+    let limit = y.lift(TWO_POW_40);
+    let y_in_range = y.min(limit).max(-limit);
+    let (log_hi, log_lo) = log2_of_positive(x);
+    let y_hi = y_in_range.high_part();
+    let lo = (y_in_range - y_hi) * log_hi + y_in_range * log_lo;
+    let value = exp2_of_sum(y_hi * log_hi, lo);
+    // 0 and ∞ have no logarithm to multiply.
+    let vanishes = (x.eq(zero) & y.gt(zero)) | (x.eq(infinity) & y.lt(zero));
+    let at_limit = F::select(vanishes, zero, infinity);
+    let value = F::select(x.gt(zero) & x.lt(infinity), value, at_limit);
+    let value = F::select(y.eq(zero), one, value);
+    // NaN for a negative base and for NaN in either.
+    F::select(x.ge(zero) & y.eq(y), value, x.lift(f64::NAN))
+}
+
+const TWO_POW_40: f64 = 1_099_511_627_776.0;
+
+/// `(sin x, cos x)`, each within 1 ulp for `|x| ≤ 512`; NaN beyond.
+#[inline(always)]
+pub(super) fn sin_cos<F: Binary32>(x: F) -> (F, F) {
+    // x = k π/2 + r + r_lo. The first three parts of π/2 have 15 bits, k has 9: their products are exact (Cody and
+    // Waite). What the subtractions round off is kept in r_lo, since near a multiple of π/2 it is all there is.
+    let k = round_shifter(x.times(core::f64::consts::FRAC_2_PI)).plus(-SHIFT);
+    let r0 = x - k.times(HALF_PI_1);
+    let (r1, e1) = two_sum(r0, k.times(-HALF_PI_2));
+    let (r2, e2) = two_sum(r1, k.times(-HALF_PI_3));
+    let (r, e3) = two_sum(r2, k.times(-HALF_PI_4));
+    let r_lo = e1 + e2 + e3;
+
+    let z = r * r;
+    // sin(r + r_lo) = r + (r³ S(r²) + r_lo).
+    let p = z.lift(2.83251006294e-6);
+    let p = (p * z).plus(-0.000198530644411);
+    let p = (p * z).plus(0.00833337940276);
+    let p = (p * z).plus(-0.166666671634);
+    let sin = r + (p * z * r + r_lo);
+    // cos(r + r_lo) = 1 − r²/2 + (r⁴ C(r²) − r r_lo), and what 1 − r²/2 rounds off.
+    let p = z.lift(2.44323273364e-5);
+    let p = (p * z).plus(-0.00138873094693);
+    let p = (p * z).plus(0.0416666455567);
+    let half_z = z.times(0.5);
+    let one = x.lift(1.0);
+    let w = one - half_z;
+    let cos = w + (((one - w) - half_z) + (p * (z * z) - r * r_lo));
+
+    // The quadrant, k modulo 4, as one of −2, −1, 0, 1, 2.
+    let quadrant = k - round_shifter(k.times(0.25)).plus(-SHIFT).times(4.0);
+    let odd = quadrant.abs().eq(one);
+    let (s, c) = (F::select(odd, cos, sin), F::select(odd, sin, cos));
+    let half_turn = quadrant.abs().eq(x.lift(2.0));
+    let s = F::select(half_turn | quadrant.eq(-one), -s, s);
+    let c = F::select(half_turn | quadrant.eq(one), -c, c);
+    // Beyond the domain nothing is known. Selected, not added: sin(−0) is −0.
+    let known = x.abs().le(x.lift(SIN_COS_MAX));
+    let nan = x.lift(f64::NAN);
+    (F::select(known, s, nan), F::select(known, c, nan))
+}
+
+/// The largest angle of [`sin_cos`], in radians.
+const SIN_COS_MAX: f64 = 512.0;
+const HALF_PI_1: f64 = 1.57073974609375;
+const HALF_PI_2: f64 = 0.000056579709053039550781;
+const HALF_PI_3: f64 = 9.9208818937768228352e-10;
+const HALF_PI_4: f64 = 5.3903025299577647655e-15;
+
+/// `a + b`, and exactly what its rounding lost (Knuth).
+#[inline(always)]
+fn two_sum<F: Real>(a: F, b: F) -> (F, F) {
+    let sum = a + b;
+    let a_part = sum - b;
+    let b_part = sum - a_part;
+    (sum, (a - a_part) + (b - b_part))
+}
