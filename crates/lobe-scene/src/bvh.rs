@@ -53,8 +53,7 @@ impl Bvh {
             .collect();
         // These are the steps of obvhs's "medium" build, without the checks that it makes in debug builds.
         let indices = (0..triangles.len() as u32).collect();
-        let mut tree =
-            PlocBuilder::new().build(PlocSearchDistance::Medium, &boxes, indices, SortPrecision::U64, 3);
+        let mut tree = PlocBuilder::new().build(PlocSearchDistance::Medium, &boxes, indices, SortPrecision::U64, 3);
         let mut optimizer = ReinsertionOptimizer::default();
         optimizer.run(&mut tree, 0.05, None);
         collapse(&mut tree, 8, 3.0);
@@ -62,8 +61,7 @@ impl Bvh {
         tree.max_depth = depth(&tree) + 1;
 
         let original = std::mem::take(&mut tree.primitive_indices);
-        let corners =
-            original.iter().map(|&at| Corners(triangles[at as usize].map(Vec3A::from))).collect();
+        let corners = original.iter().map(|&at| Corners(triangles[at as usize].map(Vec3A::from))).collect();
         Self { tree, corners, original }
     }
 
@@ -139,4 +137,74 @@ fn depth(tree: &Bvh2) -> usize {
         }
     }
     deepest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::procedural::sphere;
+    use proptest::prelude::*;
+
+    fn triangles(around: u32) -> Vec<[Vec3; 3]> {
+        let (points, faces) = sphere(Vec3::new(3.0, -2.0, 1.0), 1.0, around);
+        faces.iter().map(|face| face.map(|at| points[at as usize])).collect()
+    }
+
+    #[test]
+    fn the_tree_is_the_same_for_any_number_of_threads() {
+        let triangles = triangles(120);
+        let build = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let bvh = pool.install(|| Bvh::new(&triangles));
+            let nodes: Vec<_> = bvh
+                .tree
+                .nodes
+                .iter()
+                .map(|node| (node.first_index, node.prim_count, node.aabb.min, node.aabb.max))
+                .collect();
+            (bvh.original, nodes)
+        };
+        let one = build(1);
+        assert!(one == build(2) && one == build(7));
+    }
+
+    /// From inside a closed surface every ray hits, also those aimed exactly at points and edges.
+    #[test]
+    fn a_closed_surface_has_no_holes() {
+        let triangles = triangles(40);
+        let bvh = Bvh::new(&triangles);
+        let inside = Vec3::new(3.1, -2.2, 1.05);
+        for [a, b, c] in &triangles {
+            for target in [*a, (*a + *b) / 2.0, *a * 0.3 + *b * 0.7, *b * 0.99 + *c * 0.01, (*a + *b + *c) / 3.0] {
+                let direction = (target - inside).normalize();
+                assert!(bvh.nearest(inside.into(), direction.into(), f32::INFINITY).is_some(), "{target}");
+                assert!(!bvh.is_free(inside.into(), direction.into(), f32::INFINITY), "{target}");
+            }
+        }
+    }
+
+    proptest! {
+        /// The tree finds what trying all triangles finds.
+        #[test]
+        fn nearest_is_the_nearest(
+            points in prop::collection::vec(prop::array::uniform3(-10.0_f32..10.0), 3..60),
+            origin in prop::array::uniform3(-12.0_f32..12.0),
+            direction in prop::array::uniform3(-1.0_f32..1.0),
+        ) {
+            let triangles: Vec<[Vec3; 3]> =
+                points.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]].map(Vec3::from)).collect();
+            let direction = Vec3A::from(direction).normalize_or(Vec3A::X);
+            let origin = Vec3A::from(origin);
+            let bvh = Bvh::new(&triangles);
+            let found = bvh.nearest(origin, direction, f32::INFINITY);
+            let ray = Ray::new(origin, direction, 0.0, f32::INFINITY);
+            let all = triangles.iter().filter_map(|corners| Corners(corners.map(Vec3A::from)).intersect(&ray));
+            let expected = all.map(|(t, _)| t).fold(f32::INFINITY, f32::min);
+            prop_assert_eq!(found.map_or(f32::INFINITY, |hit| hit.t), expected);
+            prop_assert_eq!(bvh.is_free(origin, direction, f32::INFINITY), found.is_none());
+            let mut count = 0;
+            bvh.for_each(origin, direction, f32::INFINITY, |_| count += 1);
+            prop_assert_eq!(count > 0, found.is_some());
+        }
+    }
 }

@@ -1,7 +1,9 @@
 //! To be written.
 
+mod builtin;
 mod bvh;
 mod camera;
+mod description;
 mod error;
 pub mod image;
 mod lines;
@@ -10,11 +12,14 @@ mod mesh;
 pub mod mtl;
 mod normals;
 pub mod obj;
+pub mod procedural;
 mod render;
 mod scene;
 mod triangulate;
 
+pub use builtin::default_scene;
 pub use camera::Camera;
+pub use description::{LoadOptions, load, parse as parse_description};
 pub use error::{Error, Warning};
 pub use image::Image;
 pub use material::{AnyBrdf, LobeRecord, Material, ShadingModel, Surface};

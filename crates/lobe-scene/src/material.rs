@@ -225,9 +225,10 @@ impl Surface {
         match self {
             Self::Black => Vec::new(),
             Self::Diffuse(diffuse) => vec![LobeRecord::lambert(*diffuse)],
-            Self::BlinnTorrance(Sum { a, b }) => {
-                highlight(*a, LobeRecord::new("blinn-torrance-highlight", b.ks(), Some(b.shininess()), b.map(f64::from)))
-            }
+            Self::BlinnTorrance(Sum { a, b }) => highlight(
+                *a,
+                LobeRecord::new("blinn-torrance-highlight", b.ks(), Some(b.shininess()), b.map(f64::from)),
+            ),
             Self::Phong(Sum { a, b }) => {
                 highlight(*a, LobeRecord::new("phong-highlight", b.ks(), Some(b.shininess()), b.map(f64::from)))
             }

@@ -65,8 +65,7 @@ impl Mesh {
 
     /// Takes out triangles without an area (or with one that `f32` cannot hold) and says which were kept.
     pub(crate) fn drop_degenerate(&mut self) -> Vec<bool> {
-        let kept: Vec<bool> =
-            self.triangles.iter().map(|triangle| has_area(self.corners(triangle))).collect();
+        let kept: Vec<bool> = self.triangles.iter().map(|triangle| has_area(self.corners(triangle))).collect();
         let mut at = 0;
         self.triangles.retain(|_| {
             at += 1;

@@ -121,9 +121,9 @@ impl<'a> Renderer<'a> {
                 })
             })
             .collect();
-        let bounds = scene.bounds().ok_or_else(|| {
-            Error::setting("the number of triangles", 0, "a scene has at least one triangle")
-        })?;
+        let bounds = scene
+            .bounds()
+            .ok_or_else(|| Error::setting("the number of triangles", 0, "a scene has at least one triangle"))?;
         let corners: Vec<[Vec3; 3]> = triangles.iter().map(|triangle| triangle.corners).collect();
         let dissolved = scene.materials.iter().any(|material| material.dissolve < 1.0);
         Ok(Self { scene, bvh: Bvh::new(&corners), triangles, bounds, dissolved })
@@ -141,7 +141,8 @@ impl<'a> Renderer<'a> {
         let aspect = settings.width as f32 / settings.height as f32;
         let camera = view.camera_for(self.bounds.0, self.bounds.1, aspect);
         let rays = camera.rays(settings.width, settings.height)?;
-        let pass = Pass { renderer: self, lights: Lights::new(&view.lights_for(&camera))?, background: view.background };
+        let pass =
+            Pass { renderer: self, lights: Lights::new(&view.lights_for(&camera))?, background: view.background };
         let samples = sample_points(settings.samples);
         let weight = 1.0 / settings.samples as f32;
         let rows_done = AtomicU64::new(0);
@@ -176,9 +177,12 @@ impl Lights {
     fn new(lights: &[Light]) -> Result<Self, Error> {
         let colour = |colour: Rgb| match <[f32; 3]>::from(colour).iter().all(|part| part.is_finite() && *part >= 0.0) {
             true => Ok(colour),
-            false => Err(Error::setting("the colour of a light", format!("{colour:?}"), "it is finite and not negative")),
+            false => {
+                Err(Error::setting("the colour of a light", format!("{colour:?}"), "it is finite and not negative"))
+            }
         };
-        let mut sorted = Self { ambient: AmbientLight::new(Rgb::splat(0.0)), points: Vec::new(), directional: Vec::new() };
+        let mut sorted =
+            Self { ambient: AmbientLight::new(Rgb::splat(0.0)), points: Vec::new(), directional: Vec::new() };
         for light in lights {
             match *light {
                 Light::Point { position, intensity, radius } => {
@@ -252,8 +256,7 @@ impl<'a> Point<'a> {
         let size = a.abs().max(b.abs()).max(c.abs()).max_element();
         let offset = face * (units * f32::EPSILON * size);
 
-        let mut normal: Vec3 =
-            interpolate_normal(triangle.normals.map(Into::into), hit.weights, face.into()).into();
+        let mut normal: Vec3 = interpolate_normal(triangle.normals.map(Into::into), hit.weights, face.into()).into();
         if normal.dot(face) < 0.0 {
             normal = -normal;
         }
@@ -415,4 +418,62 @@ fn reflected<B: Brdf<f32> + ?Sized>(point: &Point<'_>, lobes: &B, v: lobe::Vec3,
 /// Exactly nothing. NaN is something.
 fn is_black(colour: Rgb) -> bool {
     colour == Rgb::splat(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::procedural::sphere;
+
+    /// The share of points on a sphere whose shadow ray to a lamp, straight away from the surface, meets something.
+    fn shadowed(units: f32) -> f32 {
+        let center = Vec3::new(10.0, 20.0, 30.0);
+        let (points, faces) = sphere(center, 1.0, 64);
+        let corners: Vec<[Vec3; 3]> = faces.iter().map(|face| face.map(|at| points[at as usize])).collect();
+        let bvh = Bvh::new(&corners);
+        let mut wrong = 0;
+        for (at, &corners) in corners.iter().enumerate() {
+            let face = area_vector(corners).normalize_or_zero().as_vec3();
+            let triangle = ShadingTriangle { corners, normals: [face; 3], face, material: 0 };
+            let hit = Hit { triangle: at as u32, t: 1.0, weights: [0.2, 0.3, 0.5] };
+            let point = Point::with_offset(&triangle, &hit, -face, units);
+            wrong += usize::from(!bvh.is_free(point.outside.into(), face.into(), f32::INFINITY));
+        }
+        wrong as f32 / corners.len() as f32
+    }
+
+    #[test]
+    fn without_an_offset_a_surface_shadows_itself() {
+        assert!(shadowed(0.0) > 0.2, "{}", shadowed(0.0));
+        // A quarter of the offset is enough here: the rest is margin.
+        assert_eq!(shadowed(OFFSET_UNITS / 4.0), 0.0);
+        assert_eq!(shadowed(OFFSET_UNITS), 0.0);
+    }
+
+    #[test]
+    fn one_sample_is_the_middle_and_many_are_centred() {
+        assert_eq!(sample_points(1), [[0.5, 0.5]]);
+        for count in [2, 3, 16, 100] {
+            let points = sample_points(count);
+            for axis in 0..2 {
+                let mean = points.iter().map(|point| point[axis]).sum::<f32>() / count as f32;
+                assert!((mean - 0.5).abs() < 1e-5);
+                assert!(points.iter().all(|point| (0.0..=1.0).contains(&point[axis])));
+            }
+        }
+    }
+
+    #[test]
+    fn a_normal_that_faces_away_is_bent_to_the_viewer() {
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let away = Vec3::new(0.8, 0.0, 0.6);
+        let triangle = ShadingTriangle { corners, normals: [away; 3], face: Vec3::Z, material: 0 };
+        let hit = Hit { triangle: 0, t: 1.0, weights: [0.4, 0.3, 0.3] };
+        // The viewer is low on the other side: 0.8·(−0.98) + 0.6·0.2 < 0.
+        let v = Vec3::new(-0.98, 0.0, 0.2).normalize();
+        let point = Point::new(&triangle, &hit, -v);
+        let normal = Vec3::from(point.frame.normal);
+        assert!((normal.dot(v) - LEAST_COSINE).abs() < 1e-5, "{normal}");
+        assert!(normal.dot(away) > 0.7 && (normal.length() - 1.0).abs() < 1e-6);
+    }
 }
