@@ -20,7 +20,7 @@ fn main() -> std::io::Result<()> {
 }
 
 /// All files with their content.
-pub fn files() -> [(&'static str, String); 3] {
+pub(crate) fn files() -> [(&'static str, String); 3] {
     [("lecture.obj", model()), ("lecture.mtl", materials()), ("lecture.json", description())]
 }
 

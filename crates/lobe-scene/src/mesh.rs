@@ -116,7 +116,8 @@ impl Mesh {
     pub fn check(&self, materials: usize) -> Result<(), Error> {
         self.check_positions()?;
         for (at, normal) in self.normals.iter().enumerate() {
-            if !((normal.length_squared() - 1.0).abs() < 1e-3) {
+            let is_unit = (normal.length_squared() - 1.0).abs() < 1e-3;
+            if !is_unit {
                 return Err(Error::setting(format!("normal {at} of the mesh"), normal, "its length is 1"));
             }
         }

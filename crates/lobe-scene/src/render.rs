@@ -2,22 +2,6 @@
 //!
 //! For every sample of a pixel a ray finds the nearest triangle; there each light that is not in shadow gives
 //! `eval_cos(l, v) · E`, a mirror sends a ray on, and a dissolved surface lets one through.
-//!
-//! # What happens at the edges
-//!
-//! * **Two sides.** Every surface is seen and lit from both sides. Its normals are turned to the side of the viewer,
-//!   whatever way round the file lists the corners.
-//! * **Shading normals that face away.** At the outline of a coarse smooth mesh the interpolated normal can point
-//!   away from a viewer who does see the triangle. It is then bent in the plane of view to the nearest direction with
-//!   `n·v = 0.001`, so that no lobe is asked about a viewer below the horizon.
-//! * **Shadows of smooth meshes.** A ray that starts on a flat triangle of a smooth mesh meets its neighbours near the
-//!   shadow's edge, and the facets show. The start is moved out to the curved surface that the normals mean (Hanika,
-//!   *Hacking the shadow terminator*, Ray Tracing Gems II, 2021).
-//! * **Mirrors under the horizon.** A reflection that would go below the triangle is mirrored up at it.
-//! * **Depth.** Mirror reflections and passages through dissolved surfaces are followed up to [`Settings::depth`] in a
-//!   row. Beyond it a mirror is black and a dissolved surface is solid.
-//!
-//! The picture does not depend on the number of threads: each pixel is computed by itself, in one order.
 
 use crate::bvh::{Bvh, Hit};
 use crate::camera::Rays;
@@ -26,7 +10,7 @@ use crate::image::Image;
 use crate::material::{Material, Surface};
 use crate::mesh::area_vector;
 use crate::scene::{Background, Light, Scene, View};
-use glam::{Vec3, Vec3A};
+use glam::Vec3;
 use lobe::{AmbientLight, Brdf, DirectionalLight, Frame, Incident, PointLight, Rgb, interpolate_normal};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -66,6 +50,22 @@ impl Settings {
 }
 
 /// A scene made ready for rays.
+///
+/// # What happens at the edges
+///
+/// * **Two sides.** Every surface is seen and lit from both sides. Its normals are turned to the side of the viewer,
+///   whatever way round the file lists the corners.
+/// * **Shading normals that face away.** At the outline of a coarse smooth mesh the interpolated normal can point
+///   away from a viewer who does see the triangle. It is then bent in the plane of view to the nearest direction with
+///   `n·v = 0.001`, so that no lobe is asked about a viewer below the horizon.
+/// * **Shadows of smooth meshes.** A ray that starts on a flat triangle of a smooth mesh meets its neighbours near the
+///   shadow's edge, and the facets show. The start is moved out to the curved surface that the normals mean (Hanika,
+///   *Hacking the shadow terminator*, Ray Tracing Gems II, 2021).
+/// * **Mirrors under the horizon.** A reflection that would go below the triangle is mirrored up at it.
+/// * **Depth.** Mirror reflections and passages through dissolved surfaces are followed up to [`Settings::depth`] in a
+///   row. Beyond it a mirror is black and a dissolved surface is solid.
+///
+/// The picture does not depend on the number of threads: each pixel is computed by itself, in one order.
 pub struct Renderer<'a> {
     scene: &'a Scene,
     bvh: Bvh,
@@ -278,14 +278,13 @@ impl<'a> Point<'a> {
 
     /// Where shadow rays start: on the curved surface that the normals at the corners mean.
     fn shadow_start(&self) -> Vec3 {
-        let corners = self.triangle.corners;
+        let ShadingTriangle { corners, normals, .. } = self.triangle;
         let mut lift = Vec3::ZERO;
-        for corner in 0..3 {
-            let normal = self.triangle.normals[corner];
-            let normal = if normal.dot(self.face) < 0.0 { -normal } else { normal };
+        for ((corner, normal), weight) in corners.iter().zip(normals).zip(self.weights) {
+            let normal = if normal.dot(self.face) < 0.0 { -*normal } else { *normal };
             // The distance of the point below the tangent plane of the corner.
-            let below = (self.position - corners[corner]).dot(normal).min(0.0);
-            lift -= normal * (below * self.weights[corner]);
+            let below = (self.position - corner).dot(normal).min(0.0);
+            lift -= normal * (below * weight);
         }
         self.outside + lift
     }
@@ -394,19 +393,29 @@ impl Pass<'_> {
         sum
     }
 
-    /// The part of the light that arrives: the product of `1 − d` over all surfaces on the way.
+    /// The part of the light that arrives: the product of `1 − d` over the surfaces on the way.
     fn visible(&self, start: Vec3, to_light: Vec3, distance: f32) -> f32 {
+        /// Light that has passed so many surfaces is taken as lost.
+        const MOST_SURFACES: u32 = 256;
         let renderer = self.renderer;
-        let (start, to_light) = (Vec3A::from(start), Vec3A::from(to_light));
         if !renderer.dissolved {
-            return f32::from(u8::from(renderer.bvh.is_free(start, to_light, distance)));
+            return f32::from(u8::from(renderer.bvh.is_free(start.into(), to_light.into(), distance)));
         }
-        let mut visible = 1.0;
-        renderer.bvh.for_each(start, to_light, distance, |triangle| {
-            let material = renderer.triangles[triangle as usize].material;
-            visible *= 1.0 - renderer.scene.materials[material as usize].dissolve;
-        });
-        visible
+        // From surface to surface, as the view does, so that a ray through a shared edge counts one triangle.
+        let (mut start, mut distance, mut visible) = (start, distance, 1.0);
+        for _ in 0..MOST_SURFACES {
+            let Some(hit) = renderer.bvh.nearest(start.into(), to_light.into(), distance) else {
+                return visible;
+            };
+            let triangle = &renderer.triangles[hit.triangle as usize];
+            visible *= 1.0 - renderer.scene.materials[triangle.material as usize].dissolve;
+            if visible <= 0.0 {
+                return 0.0;
+            }
+            start = Point::new(triangle, &hit, to_light).inside;
+            distance -= hit.t;
+        }
+        0.0
     }
 }
 
