@@ -37,23 +37,28 @@ fn run_opaque<T>(pairs: &[(Vec3, Vec3)], out: &mut [T], f: impl Fn(Vec3, Vec3) -
     }
 }
 
-fn compare(c: &mut Criterion, name: &str, plain: impl Fn(Vec3, Vec3) -> Vec3, ours: impl Fn(Vec3, Vec3) -> Rgb) {
+fn compare(
+    c: &mut Criterion,
+    name: &str,
+    plain: impl Fn(Vec3, Vec3) -> Vec3 + Copy,
+    ours: impl Fn(Vec3, Vec3) -> Rgb + Copy,
+) {
     let pairs = directions(COUNT);
     let mut plain_out = vec![Vec3::ZERO; COUNT];
     let mut our_out = vec![Rgb::splat(0.0); COUNT];
     let mut group = c.benchmark_group(name);
     group.throughput(Throughput::Elements(COUNT as u64));
     group.bench_function(BenchmarkId::new("loop", "plain"), |b| {
-        b.iter(|| run_loop(black_box(&pairs), black_box(&mut plain_out), &plain));
+        b.iter(|| run_loop(black_box(&pairs), black_box(&mut plain_out), plain));
     });
     group.bench_function(BenchmarkId::new("loop", "lobe"), |b| {
-        b.iter(|| run_loop(black_box(&pairs), black_box(&mut our_out), &ours));
+        b.iter(|| run_loop(black_box(&pairs), black_box(&mut our_out), ours));
     });
     group.bench_function(BenchmarkId::new("opaque", "plain"), |b| {
-        b.iter(|| run_opaque(black_box(&pairs), black_box(&mut plain_out), &plain));
+        b.iter(|| run_opaque(black_box(&pairs), black_box(&mut plain_out), plain));
     });
     group.bench_function(BenchmarkId::new("opaque", "lobe"), |b| {
-        b.iter(|| run_opaque(black_box(&pairs), black_box(&mut our_out), &ours));
+        b.iter(|| run_opaque(black_box(&pairs), black_box(&mut our_out), ours));
     });
     group.finish();
 }

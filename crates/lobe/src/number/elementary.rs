@@ -57,7 +57,10 @@ fn exp2_of_sum<F: Binary32>(hi: F, lo: Option<F>) -> F {
             (F::select(beyond, max, hi), Some(F::select(beyond, lo.lift(0.0), lo)))
         }
     };
-    // Split off the integer: exact, since |x| < 2^22 wherever the result is used.
+    // At −127 the result below is exactly 0. Without this bound the exponent field of a far argument wraps around to
+    // that of any float, infinities included: wrong where the select at the end does not catch it (NaN payloads).
+    let x = x.max(x.lift(EXP2_MIN - 1.0));
+    // Split off the integer: exact.
     let shifter = round_shifter(x);
     let r = x - shifter.plus(-SHIFT);
     let r = lo.map_or(r, |lo| r + lo);
@@ -71,9 +74,8 @@ fn exp2_of_sum<F: Binary32>(hi: F, lo: Option<F>) -> F {
     let head = linear.plus(1.0);
     let tail = (linear - head.plus(-1.0)) + r2 * q;
     let value = (head + tail).add_exponent(shifter);
-    // Below the range the exponent field has wrapped around, and of a NaN it may have made a number. |0 · x| is 0 or
-    // NaN, for −∞ too once it is brought into range.
-    let zero_or_nan = x.max(x.lift(2.0 * EXP2_MIN)).times(0.0).abs();
+    // Between −127 and −126 it is subnormal, and of a NaN the exponent may have made a number. |0 · x| is 0 or NaN.
+    let zero_or_nan = x.times(0.0).abs();
     F::select(x.ge(x.lift(EXP2_MIN)), value, zero_or_nan)
 }
 
