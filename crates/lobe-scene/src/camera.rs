@@ -1,0 +1,138 @@
+//! A pinhole camera.
+
+use crate::Error;
+use glam::Vec3;
+
+/// Where the picture is taken from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Where the camera is.
+    pub eye: Vec3,
+    /// The point in the middle of the picture.
+    pub target: Vec3,
+    /// A direction that points up in the picture; it need not be at a right angle to the view.
+    pub up: Vec3,
+    /// The angle between the upper and the lower edge of the picture, in degrees, above 0 and below 180.
+    pub fov_y_degrees: f32,
+}
+
+impl Camera {
+    /// A camera that sees a whole box, given by two opposite corners, from slightly above and to its right, in a
+    /// picture of this width divided by height.
+    #[must_use]
+    pub fn framing(low: Vec3, high: Vec3, aspect: f32) -> Self {
+        let fov_y_degrees = 35.0_f32;
+        let target = (low + high) / 2.0;
+        // A box without an extent is a point: any distance will do.
+        let radius = ((high - low) / 2.0).length().max(1e-6 * target.abs().max_element()).max(f32::MIN_POSITIVE);
+        let half_y = fov_y_degrees.to_radians() / 2.0;
+        let half_x = (half_y.tan() * aspect.clamp(0.01, 100.0)).atan();
+        let distance = radius / half_y.min(half_x).sin();
+        let from = Vec3::new(0.45, 0.35, 1.0).normalize();
+        Self { eye: target + from * distance, target, up: Vec3::Y, fov_y_degrees }
+    }
+
+    /// The rays of a picture of this size.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] when the camera has no direction, or an angle that is none.
+    pub(crate) fn rays(&self, width: u32, height: u32) -> Result<Rays, Error> {
+        let forward = (self.target.as_dvec3() - self.eye.as_dvec3())
+            .try_normalize()
+            .filter(|_| self.eye.is_finite() && self.target.is_finite())
+            .ok_or_else(|| Error::setting("the target of the camera", self.target, "it is a point apart from the eye"))?;
+        let right = forward
+            .cross(self.up.as_dvec3().normalize_or_zero())
+            .try_normalize()
+            .filter(|right| right.is_finite())
+            .ok_or_else(|| Error::setting("`up` of the camera", self.up, "it does not point along the view"))?;
+        if !(self.fov_y_degrees > 0.0 && self.fov_y_degrees < 180.0) {
+            return Err(Error::setting("fov_y_degrees", self.fov_y_degrees, "it lies between 0 and 180"));
+        }
+        let up = right.cross(forward);
+        let half_height = (f64::from(self.fov_y_degrees).to_radians() / 2.0).tan();
+        let half_width = half_height * f64::from(width) / f64::from(height);
+        Ok(Rays {
+            eye: self.eye,
+            corner: (forward - right * half_width + up * half_height).as_vec3(),
+            right: (right * 2.0 * half_width / f64::from(width)).as_vec3(),
+            down: (-up * 2.0 * half_height / f64::from(height)).as_vec3(),
+        })
+    }
+}
+
+/// The rays through the pixels of a picture.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rays {
+    pub(crate) eye: Vec3,
+    corner: Vec3,
+    right: Vec3,
+    down: Vec3,
+}
+
+impl Rays {
+    /// The unit direction through a point of the picture, in pixels from its upper left corner.
+    #[inline]
+    pub(crate) fn direction(&self, x: f32, y: f32) -> Vec3 {
+        (self.corner + self.right * x + self.down * y).normalize()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_target_is_in_the_middle_and_the_edges_are_at_half_the_angle() -> Result<(), Error> {
+        let camera = Camera { eye: Vec3::ZERO, target: Vec3::NEG_Z * 3.0, up: Vec3::Y, fov_y_degrees: 90.0 };
+        let rays = camera.rays(200, 100)?;
+        assert!((rays.direction(100.0, 50.0) - Vec3::NEG_Z).length() < 1e-6);
+        assert!((rays.direction(100.0, 0.0) - Vec3::new(0.0, 1.0, -1.0).normalize()).length() < 1e-6);
+        assert!((rays.direction(200.0, 50.0) - Vec3::new(2.0, 0.0, -1.0).normalize()).length() < 1e-6);
+        Ok(())
+    }
+
+    #[test]
+    fn a_framed_box_is_inside_the_picture() -> Result<(), Error> {
+        for (low, high) in [
+            (Vec3::ZERO, Vec3::ONE),
+            (Vec3::new(-1e6, 3.0, 0.0), Vec3::new(1e6, 3.0, 1.0)),
+            (Vec3::splat(-1e-6), Vec3::splat(1e-6)),
+        ] {
+            for (width, height) in [(160, 90), (50, 200)] {
+                let camera = Camera::framing(low, high, width as f32 / height as f32);
+                let rays = camera.rays(width, height)?;
+                let (forward, top) = (rays.direction(width as f32 / 2.0, height as f32 / 2.0), rays.direction(width as f32 / 2.0, 0.0));
+                for corner in 0..8 {
+                    let point = Vec3::new(
+                        if corner & 1 == 0 { low.x } else { high.x },
+                        if corner & 2 == 0 { low.y } else { high.y },
+                        if corner & 4 == 0 { low.z } else { high.z },
+                    );
+                    let angle = (point - camera.eye).angle_between(forward);
+                    let side = rays.direction(0.0, height as f32 / 2.0).angle_between(forward);
+                    assert!(angle <= top.angle_between(forward).min(side) + 1e-3, "{low} {high} {angle}");
+                }
+            }
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn senseless_cameras_are_errors() {
+        let good = Camera { eye: Vec3::ZERO, target: Vec3::X, up: Vec3::Y, fov_y_degrees: 40.0 };
+        for bad in [
+            Camera { target: Vec3::ZERO, ..good },
+            Camera { target: Vec3::splat(f32::NAN), ..good },
+            Camera { eye: Vec3::splat(f32::INFINITY), ..good },
+            Camera { up: Vec3::X, ..good },
+            Camera { up: Vec3::ZERO, ..good },
+            Camera { fov_y_degrees: 0.0, ..good },
+            Camera { fov_y_degrees: 180.0, ..good },
+            Camera { fov_y_degrees: f32::NAN, ..good },
+        ] {
+            assert!(bad.rays(4, 4).is_err(), "{bad:?}");
+        }
+        assert!(good.rays(4, 4).is_ok());
+    }
+}

@@ -1,0 +1,311 @@
+//! A material: the lecture's equation as lobes.
+//!
+//! # One radiometric convention
+//!
+//! A point light has the intensity `I`, a surface that faces it at distance `r` receives the irradiance `E = I/r²`,
+//! and the radiance towards the viewer is
+//!
+//! ```text
+//! L = Ke + Ka Ia + Σ eval_cos(l, v) E + Ks L(mirror direction)
+//! ```
+//!
+//! The lecture writes `L_o = ka kd + [kd (n·l) + ks (n·h)^q] L_i/r²`. That is this, with `L_i = I/π`: the diffuse
+//! term is [`Lambert`] with albedo `kd`, since `eval_cos = kd/π · (n·l)`, and the highlight is
+//! [`BlinnTorranceHighlight`] with `eval_cos = ks/π · (n·h)^q`. So a light that the lecture gives as `L_i` is
+//! entered here as `I = π L_i`, and a white diffuse surface does not send out more than it receives.
+//!
+//! `Ka Ia` is the ambient term as MTL has it: `Ka` alone, where the lecture writes `ka kd`.
+
+use crate::mtl::{Illumination, MtlMaterial};
+use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
+use lobe::{BlinnPhong, Brdf, Lambert, Mirror, Phong, Rgb, Shininess, Sum};
+use std::fmt;
+use std::sync::Arc;
+
+/// How `Ks` and `Ns` of a material file become a highlight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum ShadingModel {
+    /// `ks/π · (n·h)^q`: what MTL itself says, and the lecture's second form. Not a BRDF.
+    #[default]
+    BlinnTorrance,
+    /// `ks/π · (v·r)^q`, with `r` the mirror direction of the light: the lecture's first form. Not a BRDF.
+    Phong,
+    /// [`Phong`](lobe::Phong): the same lobe as a normalised BRDF whose albedo is at most `ks`.
+    NormalizedPhong,
+    /// [`BlinnPhong`](lobe::BlinnPhong): the same for the halfway vector.
+    NormalizedBlinnPhong,
+}
+
+impl ShadingModel {
+    /// All of them, in the order of the docs.
+    pub const ALL: [Self; 4] = [Self::BlinnTorrance, Self::Phong, Self::NormalizedPhong, Self::NormalizedBlinnPhong];
+
+    /// The name in scene descriptions: `blinn-torrance`, `phong`, `normalized-phong`, `normalized-blinn-phong`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::BlinnTorrance => "blinn-torrance",
+            Self::Phong => "phong",
+            Self::NormalizedPhong => "normalized-phong",
+            Self::NormalizedBlinnPhong => "normalized-blinn-phong",
+        }
+    }
+}
+
+impl fmt::Display for ShadingModel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl std::str::FromStr for ShadingModel {
+    type Err = crate::Error;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        Self::ALL.into_iter().find(|model| model.name() == name).ok_or_else(|| {
+            let names = Self::ALL.map(Self::name).join(", ");
+            crate::Error::setting("the shading model", format!("`{name}`"), format!("it is one of {names}"))
+        })
+    }
+}
+
+/// What the ray caster needs of a lobe of your own.
+pub trait AnyBrdf: Brdf<f32> + Send + Sync + fmt::Debug {}
+impl<B: Brdf<f32> + Send + Sync + fmt::Debug> AnyBrdf for B {}
+
+/// The sum of lobes of a material.
+///
+/// Each variant is a concrete type: it is chosen once for a hit, not once for a light, and a lobe that is not there
+/// is not evaluated.
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub enum Surface {
+    /// Nothing reacts to lights.
+    #[default]
+    Black,
+    /// Diffuse only.
+    Diffuse(Lambert),
+    /// The lecture's equation with the halfway vector.
+    BlinnTorrance(Sum<Lambert, BlinnTorranceHighlight>),
+    /// The lecture's equation with the mirror direction.
+    Phong(Sum<Lambert, PhongHighlight>),
+    /// Diffuse and the normalised Phong lobe.
+    NormalizedPhong(Sum<Lambert, Phong>),
+    /// Diffuse and the normalised Blinn-Phong lobe.
+    NormalizedBlinnPhong(Sum<Lambert, BlinnPhong>),
+    /// Any other BRDF, given from Rust.
+    Other(Arc<dyn AnyBrdf>),
+}
+
+/// What a surface does with light.
+#[derive(Debug, Clone)]
+pub struct Material {
+    /// Its name in messages and tables.
+    pub name: String,
+    /// `Ka`: the part of the ambient radiance that is sent on, without a lobe.
+    pub ambient: Rgb,
+    /// `Ke`: radiance that the surface sends out by itself.
+    pub emission: Rgb,
+    /// `d`: 1 is solid. Below that the picture is a blend, `d` times the surface and `1 − d` times what lies behind
+    /// (no refraction), and a shadow lets `1 − d` of the light through at each surface that the ray crosses.
+    pub dissolve: f32,
+    /// What is seen in it as in a mirror; its reflectance is 0 for most materials.
+    pub mirror: Mirror,
+    /// How it reacts to lights.
+    pub surface: Surface,
+}
+
+impl Default for Material {
+    /// The grey of [`MtlMaterial::default`].
+    fn default() -> Self {
+        Self::from_mtl(&MtlMaterial::default(), ShadingModel::default())
+    }
+}
+
+impl Material {
+    /// A material with these lobes and nothing else: no ambient reflection, no emission, solid.
+    #[must_use]
+    pub fn new(name: impl Into<String>, surface: Surface) -> Self {
+        let none = Rgb::splat(0.0);
+        Self { name: name.into(), ambient: none, emission: none, dissolve: 1.0, mirror: Mirror::new(none), surface }
+    }
+
+    /// The material of a file as lobes. What is not there by `illum` is left out.
+    #[must_use]
+    pub fn from_mtl(mtl: &MtlMaterial, model: ShadingModel) -> Self {
+        let (kd, ks) = (Rgb::from(mtl.kd), Rgb::from(mtl.ks));
+        let ambient = mtl.ka.map_or(kd, Rgb::from);
+        let emission = Rgb::from(mtl.ke);
+        let shiny = mtl.ks != [0.0; 3];
+        let mut material = Self::new(mtl.name.as_str(), Surface::Diffuse(Lambert::new(kd)));
+        material.dissolve = mtl.d;
+        material.emission = emission;
+        material.ambient = ambient;
+        match mtl.illumination {
+            // The colour Kd without any light is a surface that sends out Kd.
+            Illumination::Constant => {
+                material.emission = emission + kd;
+                material.ambient = Rgb::splat(0.0);
+                material.surface = Surface::Black;
+            }
+            Illumination::Diffuse => {}
+            Illumination::Highlight | Illumination::Mirror if shiny => {
+                material.surface = Surface::new(model, kd, ks, Shininess(mtl.ns));
+                if mtl.illumination == Illumination::Mirror {
+                    material.mirror = Mirror::new(ks);
+                }
+            }
+            Illumination::Highlight | Illumination::Mirror => {}
+        }
+        material
+    }
+}
+
+/// One lobe of a material, for a table.
+pub struct LobeRecord {
+    /// The kind of lobe, as `lobe eval` names it where it knows it: `lambert`, `phong`, …
+    pub model: &'static str,
+    /// Its reflectance `kd` or `ks`, linear RGB; `None` for a lobe given from Rust.
+    pub reflectance: Option<[f32; 3]>,
+    /// Its exponent `q`, if it has one.
+    pub exponent: Option<f32>,
+    /// The lobe in `f64`, for integrals; `None` for a lobe given from Rust.
+    pub reference: Option<Box<dyn Brdf<f64> + Send + Sync>>,
+}
+
+impl fmt::Debug for LobeRecord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("LobeRecord")
+            .field("model", &self.model)
+            .field("reflectance", &self.reflectance)
+            .field("exponent", &self.exponent)
+            .finish_non_exhaustive()
+    }
+}
+
+impl LobeRecord {
+    fn new(
+        model: &'static str,
+        reflectance: Rgb,
+        exponent: Option<Shininess>,
+        reference: impl Brdf<f64> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            model,
+            reflectance: Some(reflectance.into()),
+            exponent: exponent.map(|q| q.0),
+            reference: Some(Box::new(reference)),
+        }
+    }
+
+    fn lambert(lobe: Lambert) -> Self {
+        Self::new("lambert", lobe.albedo(), None, lobe.map(f64::from))
+    }
+}
+
+impl Surface {
+    /// Diffuse reflection `kd` and a highlight `ks`, `q` by the given model.
+    #[must_use]
+    pub fn new(model: ShadingModel, kd: Rgb, ks: Rgb, q: Shininess) -> Self {
+        let diffuse = Lambert::new(kd);
+        match model {
+            ShadingModel::BlinnTorrance => Self::BlinnTorrance(diffuse + BlinnTorranceHighlight::new(ks, q)),
+            ShadingModel::Phong => Self::Phong(diffuse + PhongHighlight::new(ks, q)),
+            ShadingModel::NormalizedPhong => Self::NormalizedPhong(diffuse + Phong::new(ks, q)),
+            ShadingModel::NormalizedBlinnPhong => Self::NormalizedBlinnPhong(diffuse + BlinnPhong::new(ks, q)),
+        }
+    }
+
+    /// The lobes with their parameters.
+    #[must_use]
+    pub fn lobes(&self) -> Vec<LobeRecord> {
+        let highlight = |diffuse: Lambert, record: LobeRecord| vec![LobeRecord::lambert(diffuse), record];
+        match self {
+            Self::Black => Vec::new(),
+            Self::Diffuse(diffuse) => vec![LobeRecord::lambert(*diffuse)],
+            Self::BlinnTorrance(Sum { a, b }) => {
+                highlight(*a, LobeRecord::new("blinn-torrance-highlight", b.ks(), Some(b.shininess()), b.map(f64::from)))
+            }
+            Self::Phong(Sum { a, b }) => {
+                highlight(*a, LobeRecord::new("phong-highlight", b.ks(), Some(b.shininess()), b.map(f64::from)))
+            }
+            Self::NormalizedPhong(Sum { a, b }) => {
+                highlight(*a, LobeRecord::new("phong", b.ks(), Some(b.shininess()), b.map(f64::from)))
+            }
+            Self::NormalizedBlinnPhong(Sum { a, b }) => {
+                highlight(*a, LobeRecord::new("blinn-phong", b.ks(), Some(b.shininess()), b.map(f64::from)))
+            }
+            Self::Other(_) => {
+                vec![LobeRecord { model: "other", reflectance: None, exponent: None, reference: None }]
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lobe::Vec3;
+    use std::f32::consts::PI;
+
+    fn mtl(illumination: Illumination) -> MtlMaterial {
+        MtlMaterial {
+            kd: [0.5, 0.25, 0.0],
+            ks: [0.25; 3],
+            ke: [0.0, 0.0, 1.0],
+            ns: 8.0,
+            d: 0.5,
+            illumination,
+            ..MtlMaterial::default()
+        }
+    }
+
+    #[test]
+    fn illum_leaves_out_what_is_not_there() {
+        let constant = Material::from_mtl(&mtl(Illumination::Constant), ShadingModel::Phong);
+        assert_eq!(constant.emission, Rgb::new(0.5, 0.25, 1.0));
+        assert!(constant.surface.lobes().is_empty());
+        let diffuse = Material::from_mtl(&mtl(Illumination::Diffuse), ShadingModel::Phong);
+        assert!(matches!(diffuse.surface, Surface::Diffuse(_)));
+        assert_eq!(diffuse.ambient, Rgb::new(0.5, 0.25, 0.0), "without Ka the ambient light sees Kd");
+        let mirror = Material::from_mtl(&mtl(Illumination::Mirror), ShadingModel::BlinnTorrance);
+        assert_eq!(mirror.mirror.ks(), Rgb::splat(0.25));
+        let plain = Material::from_mtl(&mtl(Illumination::Highlight), ShadingModel::BlinnTorrance);
+        assert_eq!(plain.mirror.ks(), Rgb::splat(0.0));
+        assert_eq!(plain.dissolve, 0.5);
+    }
+
+    #[test]
+    fn the_lectures_equation_is_met() {
+        let (l, v) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.6, 0.8));
+        let h_z = 1.6 / f32::sqrt(0.36 + 0.36 + 2.56);
+        let r_v = 0.64; // v · (−0.6, 0, 0.8)
+        for (model, cosine) in [(ShadingModel::BlinnTorrance, h_z), (ShadingModel::Phong, r_v)] {
+            let material = Material::from_mtl(&mtl(Illumination::Highlight), model);
+            let value = match &material.surface {
+                Surface::BlinnTorrance(sum) => sum.eval_cos(l, v),
+                Surface::Phong(sum) => sum.eval_cos(l, v),
+                other => unreachable!("{other:?}"),
+            };
+            // For L_i/r² = 1, E = π.
+            let bracket = 0.5 * 0.8 + 0.25 * cosine.powi(8);
+            assert!((value.r * PI - bracket).abs() < 1e-6, "{model}: {} {bracket}", value.r * PI);
+        }
+    }
+
+    #[test]
+    fn models_have_names_and_records() {
+        for model in ShadingModel::ALL {
+            assert_eq!(model.name().parse::<ShadingModel>().ok(), Some(model));
+            let lobes = Material::from_mtl(&mtl(Illumination::Highlight), model).surface.lobes();
+            assert_eq!(lobes.len(), 2);
+            assert_eq!(lobes[0].reflectance, Some([0.5, 0.25, 0.0]));
+            assert_eq!(lobes[1].exponent, Some(8.0));
+            let up = Vec3::new(0.0, 0.0, 1.0);
+            assert!(lobes.iter().all(|lobe| lobe.reference.as_ref().is_some_and(|lobe| lobe.eval(up, up).r > 0.0)));
+        }
+        assert!("gouraud".parse::<ShadingModel>().is_err());
+    }
+}

@@ -1,0 +1,322 @@
+//! MTL, the material library of Wavefront OBJ.
+//!
+//! A material holds the constants of the lighting equation that the file format was made for
+//! (Wavefront, *Advanced Visualizer Manual*, appendix B2, 1995). For `illum 2` it reads
+//!
+//! ```text
+//! colour = Ka Ia + Kd Σ (N·Lj) Ij + Ks Σ (H·Hj)^Ns Ij
+//! ```
+//!
+//! with `H·Hj` the cosine between the normal and the halfway vector: Blinn's form of Phong's highlight.
+//!
+//! | statement | meaning | domain | when absent |
+//! |---|---|---|---|
+//! | `Ka r g b` | reflection of the ambient light | ≥ 0 | the same as `Kd` |
+//! | `Kd r g b` | diffuse reflection | ≥ 0 | 0.8 |
+//! | `Ks r g b` | specular reflection | ≥ 0 | 0 |
+//! | `Ke r g b` | light that the surface sends out by itself | ≥ 0 | 0 |
+//! | `Ns q` | exponent of the highlight | 0 … 10⁶ | 10 |
+//! | `d a` | dissolve: 1 is solid, 0 is not there | 0 … 1 | 1 |
+//! | `Tr t` | the same as `d` with `1 − t` | 0 … 1 | |
+//! | `illum n` | which terms are used, see [`Illumination`] | 0 … 10 | 2 if `Ks` is not 0, else 1 |
+//!
+//! Colours are linear RGB. One number alone stands for all three. `Ni` and `sharpness` concern refraction
+//! and blurred reflections, which are not supported; they are checked and have no effect.
+
+use crate::error::{Error, Warning, Warnings};
+use crate::lines::{Place, Statements, keyword, shown, text, words};
+use std::collections::{HashMap, HashSet};
+
+/// The largest exponent `Ns` that is accepted; the lobes are accurate up to there.
+pub const MAX_EXPONENT: f32 = 1e6;
+
+/// Which terms of the equation a material uses: the statement `illum`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Illumination {
+    /// `illum 0`: the colour `Kd` everywhere, without any light.
+    Constant,
+    /// `illum 1`: ambient and diffuse.
+    Diffuse,
+    /// `illum 2`: ambient, diffuse and highlight.
+    Highlight,
+    /// `illum 3`, `5` and `8`: as 2, and a mirror reflection weighted by `Ks`. `5` asks for Fresnel's
+    /// law besides and gets the reflection without it.
+    Mirror,
+}
+
+/// One material as it stands in the file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MtlMaterial {
+    /// The name after `newmtl`.
+    pub name: String,
+    /// Reflection of the ambient light; `None` means the same as `kd`.
+    pub ka: Option<[f32; 3]>,
+    /// Diffuse reflection.
+    pub kd: [f32; 3],
+    /// Specular reflection.
+    pub ks: [f32; 3],
+    /// Radiance that the surface sends out by itself.
+    pub ke: [f32; 3],
+    /// Exponent of the highlight, 0 … 10⁶.
+    pub ns: f32,
+    /// Dissolve: 1 is solid, 0 is not there.
+    pub d: f32,
+    /// The terms in use.
+    pub illumination: Illumination,
+}
+
+impl Default for MtlMaterial {
+    /// The grey of a surface to which the file gives no material.
+    fn default() -> Self {
+        Self {
+            name: "default".to_owned(),
+            ka: None,
+            kd: [0.8; 3],
+            ks: [0.0; 3],
+            ke: [0.0; 3],
+            ns: 10.0,
+            d: 1.0,
+            illumination: Illumination::Diffuse,
+        }
+    }
+}
+
+/// A material while it is being read: what has been given so far.
+struct Draft {
+    material: MtlMaterial,
+    line: usize,
+    illum: Option<u32>,
+    exponent_given: bool,
+}
+
+/// Reads the text of an MTL file. `file` is the name for messages.
+///
+/// ```
+/// let (materials, warnings) = lobe_scene::mtl::parse("newmtl red\nKd 1 0 0\nKs 0.5\nNs 40\n", "a.mtl")?;
+/// assert_eq!(materials[0].kd, [1.0, 0.0, 0.0]);
+/// assert!(warnings.is_empty());
+///
+/// let wrong = lobe_scene::mtl::parse("newmtl red\nNs -3\n", "a.mtl").unwrap_err();
+/// assert!(wrong.to_string().starts_with("a.mtl:2: Ns is -3"));
+/// # Ok::<(), lobe_scene::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Syntax`] with file and line when a statement is wrong.
+pub fn parse(text: impl AsRef<[u8]>, file: &str) -> Result<(Vec<MtlMaterial>, Vec<Warning>), Error> {
+    let mut library = Library {
+        warnings: Warnings::new(file),
+        materials: Vec::new(),
+        by_name: HashMap::new(),
+        unknown: HashSet::new(),
+    };
+    let mut draft: Option<Draft> = None;
+    let mut statements = Statements::new(text.as_ref());
+    while let Some((line, statement)) = statements.next() {
+        let place = Place { file, line };
+        let (key, rest) = keyword(statement);
+        if key == b"newmtl" {
+            if let Some(finished) = draft.take() {
+                library.add(finished);
+            }
+            draft = Some(Draft::new(place, rest)?);
+            continue;
+        }
+        match &mut draft {
+            Some(draft) => library.statement(draft, place, key, rest)?,
+            None => {
+                return Err(place.error(
+                    format!("`{}` stands before the first material", shown(key)),
+                    "start a material with `newmtl name`",
+                ));
+            }
+        }
+    }
+    if let Some(finished) = draft {
+        library.add(finished);
+    }
+    Ok((library.materials, library.warnings.finish()))
+}
+
+impl Draft {
+    fn new(place: Place<'_>, name: &[u8]) -> Result<Self, Error> {
+        if name.is_empty() {
+            return Err(place.error("newmtl without a name", "write `newmtl name`"));
+        }
+        let material = MtlMaterial { name: text(name), ..MtlMaterial::default() };
+        Ok(Self { material, line: place.line, illum: None, exponent_given: false })
+    }
+}
+
+/// What has been read of a file.
+struct Library {
+    warnings: Warnings,
+    materials: Vec<MtlMaterial>,
+    by_name: HashMap<String, usize>,
+    unknown: HashSet<Vec<u8>>,
+}
+
+impl Library {
+    fn statement(&mut self, draft: &mut Draft, place: Place<'_>, key: &[u8], rest: &[u8]) -> Result<(), Error> {
+        let material = &mut draft.material;
+        match key {
+            b"Ka" => {
+                if let Some(ka) = self.colour(place, key, rest)? {
+                    material.ka = Some(ka);
+                }
+            }
+            b"Kd" => material.kd = self.colour(place, key, rest)?.unwrap_or(material.kd),
+            b"Ks" => material.ks = self.colour(place, key, rest)?.unwrap_or(material.ks),
+            b"Ke" => material.ke = self.colour(place, key, rest)?.unwrap_or(material.ke),
+            b"Ns" => {
+                material.ns = one_number(place, key, rest)?;
+                draft.exponent_given = true;
+                if !(0.0..=MAX_EXPONENT).contains(&material.ns) {
+                    return Err(
+                        place.error(format!("Ns is {}", material.ns), "an exponent lies between 0 and 1000000")
+                    );
+                }
+            }
+            b"d" | b"Tr" => {
+                let rest = match rest.strip_prefix(b"-halo") {
+                    Some(rest) => {
+                        self.warnings.push(place.line, "`d -halo` is not supported: the same dissolve from all sides");
+                        rest.trim_ascii()
+                    }
+                    None => rest,
+                };
+                let value = one_number(place, key, rest)?;
+                if !(0.0..=1.0).contains(&value) {
+                    let problem = format!("{} is {value}", shown(key));
+                    return Err(place.error(problem, "it lies between 0 and 1 (`d 1` and `Tr 0` are solid)"));
+                }
+                material.d = if key == b"d" { value } else { 1.0 - value };
+            }
+            b"illum" => draft.illum = Some(illum(place, rest)?),
+            b"Ni" | b"sharpness" => {
+                one_number(place, key, rest)?;
+            }
+            _ if is_map(key) => self.warnings.push(
+                place.line,
+                format!("material `{}`: the map `{} {}` is not supported and has no effect", material.name, shown(key), shown(rest)),
+            ),
+            _ => {
+                if self.unknown.len() < Warnings::LIMIT && self.unknown.insert(key.to_vec()) {
+                    let text = format!("`{}` is not supported and has no effect", shown(key));
+                    self.warnings.push(place.line, text);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A colour: three numbers, or one for all three. `None` (and a warning) for the two forms that need a spectrum.
+    fn colour(&mut self, place: Place<'_>, key: &[u8], rest: &[u8]) -> Result<Option<[f32; 3]>, Error> {
+        let mut colour = [0.0_f32; 3];
+        let mut count = 0;
+        for word in words(rest) {
+            if count == 0 && (word == b"spectral" || word == b"xyz") {
+                let text = format!("`{} {}` is not supported and has no effect", shown(key), shown(rest));
+                self.warnings.push(place.line, text);
+                return Ok(None);
+            }
+            if count == 3 {
+                count = 4;
+                break;
+            }
+            colour[count] = place.number(word)?;
+            if colour[count] < 0.0 {
+                let problem = format!("{} is {}", shown(key), colour[count]);
+                return Err(place.error(problem, "a colour has no negative part"));
+            }
+            count += 1;
+        }
+        match count {
+            1 => colour = [colour[0]; 3],
+            3 => {}
+            0 | 2 => {
+                let problem = format!("{} has {count} numbers", shown(key));
+                return Err(place.error(problem, format!("write `{} r g b`", shown(key))));
+            }
+            _ => {
+                let problem = format!("{} has more than 3 numbers", shown(key));
+                return Err(place.error(problem, format!("write `{} r g b`", shown(key))));
+            }
+        }
+        if key != b"Ke" && colour.iter().any(|&part| part > 1.0) {
+            self.warnings.push(place.line, format!("{} is above 1: more light leaves than arrives", shown(key)));
+        }
+        Ok(Some(colour))
+    }
+
+    /// The material is complete: its `illum` is decided and it joins the others.
+    fn add(&mut self, draft: Draft) {
+        let Draft { mut material, line, illum, exponent_given } = draft;
+        let shiny = material.ks.iter().any(|&part| part > 0.0);
+        material.illumination = match illum {
+            Some(0) => Illumination::Constant,
+            Some(1) => Illumination::Diffuse,
+            Some(2) => Illumination::Highlight,
+            Some(3 | 5 | 8) => Illumination::Mirror,
+            Some(4 | 6 | 7 | 9) => {
+                let text = format!(
+                    "material `{}`: illum {} asks for glass, which is not supported: shaded as illum 3 with its dissolve",
+                    material.name,
+                    illum.unwrap_or(0)
+                );
+                self.warnings.push(line, text);
+                Illumination::Mirror
+            }
+            Some(_) => {
+                let text = format!(
+                    "material `{}`: illum 10 (shadows on invisible surfaces) is not supported: shaded as illum 2",
+                    material.name
+                );
+                self.warnings.push(line, text);
+                Illumination::Highlight
+            }
+            None if shiny => Illumination::Highlight,
+            None => Illumination::Diffuse,
+        };
+        let highlight = matches!(material.illumination, Illumination::Highlight | Illumination::Mirror);
+        if shiny && highlight && !exponent_given {
+            let text = format!("material `{}` has Ks but no Ns: exponent 10 assumed", material.name);
+            self.warnings.push(line, text);
+        }
+        match self.by_name.get(&material.name) {
+            Some(&at) => {
+                self.warnings.push(line, format!("material `{}` is given twice: the later one is used", material.name));
+                self.materials[at] = material;
+            }
+            None => {
+                self.by_name.insert(material.name.clone(), self.materials.len());
+                self.materials.push(material);
+            }
+        }
+    }
+}
+
+fn one_number(place: Place<'_>, key: &[u8], rest: &[u8]) -> Result<f32, Error> {
+    let mut list = words(rest);
+    match (list.next(), list.next()) {
+        (Some(word), None) => place.number(word),
+        (None, _) => Err(place.error(format!("{} without a number", shown(key)), format!("write `{} number`", shown(key)))),
+        (Some(_), Some(_)) => {
+            Err(place.error(format!("{} has more than one number", shown(key)), format!("write `{} number`", shown(key))))
+        }
+    }
+}
+
+fn illum(place: Place<'_>, rest: &[u8]) -> Result<u32, Error> {
+    let number = std::str::from_utf8(rest).ok().and_then(|word| word.parse::<u32>().ok());
+    match number {
+        Some(number) if number <= 10 => Ok(number),
+        _ => Err(place.error(format!("illum is `{}`", shown(rest)), "it is a whole number from 0 to 10")),
+    }
+}
+
+/// Statements that name a picture.
+fn is_map(key: &[u8]) -> bool {
+    key.starts_with(b"map_") || matches!(key, b"bump" | b"disp" | b"decal" | b"refl" | b"norm")
+}

@@ -1,0 +1,418 @@
+//! A small ray caster that shades a scene with its lobes.
+//!
+//! For every sample of a pixel a ray finds the nearest triangle; there each light that is not in shadow gives
+//! `eval_cos(l, v) · E`, a mirror sends a ray on, and a dissolved surface lets one through.
+//!
+//! # What happens at the edges
+//!
+//! * **Two sides.** Every surface is seen and lit from both sides. Its normals are turned to the side of the viewer,
+//!   whatever way round the file lists the corners.
+//! * **Shading normals that face away.** At the outline of a coarse smooth mesh the interpolated normal can point
+//!   away from a viewer who does see the triangle. It is then bent in the plane of view to the nearest direction with
+//!   `n·v = 0.001`, so that no lobe is asked about a viewer below the horizon.
+//! * **Shadows of smooth meshes.** A ray that starts on a flat triangle of a smooth mesh meets its neighbours near the
+//!   shadow's edge, and the facets show. The start is moved out to the curved surface that the normals mean (Hanika,
+//!   *Hacking the shadow terminator*, Ray Tracing Gems II, 2021).
+//! * **Mirrors under the horizon.** A reflection that would go below the triangle is mirrored up at it.
+//! * **Depth.** Mirror reflections and passages through dissolved surfaces are followed up to [`Settings::depth`] in a
+//!   row. Beyond it a mirror is black and a dissolved surface is solid.
+//!
+//! The picture does not depend on the number of threads: each pixel is computed by itself, in one order.
+
+use crate::bvh::{Bvh, Hit};
+use crate::camera::Rays;
+use crate::error::Error;
+use crate::image::Image;
+use crate::material::{Material, Surface};
+use crate::mesh::area_vector;
+use crate::scene::{Background, Light, Scene, View};
+use glam::{Vec3, Vec3A};
+use lobe::{AmbientLight, Brdf, DirectionalLight, Frame, Incident, PointLight, Rgb, interpolate_normal};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Called now and then with the rows that are finished and the rows in all, from any thread.
+pub type Progress<'a> = &'a (dyn Fn(u64, u64) + Sync);
+
+/// Size and quality of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Settings {
+    /// Pixels in a row, 1 … [`MAX_SIDE`](crate::image::MAX_SIDE).
+    pub width: u32,
+    /// Rows, 1 … [`MAX_SIDE`](crate::image::MAX_SIDE).
+    pub height: u32,
+    /// Rays for each pixel, 1 … 4096, spread evenly over it; their mean is the pixel.
+    pub samples: u32,
+    /// How many mirrors and dissolved surfaces in a row are followed, 0 … 32.
+    pub depth: u32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { width: 1280, height: 720, samples: 1, depth: 8 }
+    }
+}
+
+impl Settings {
+    fn check(&self) -> Result<(), Error> {
+        if !(1..=4096).contains(&self.samples) {
+            return Err(Error::setting("samples", self.samples, "a pixel has 1 to 4096 of them"));
+        }
+        if self.depth > 32 {
+            return Err(Error::setting("depth", self.depth, "it is at most 32: rays can double at each step"));
+        }
+        Ok(())
+    }
+}
+
+/// A scene made ready for rays.
+pub struct Renderer<'a> {
+    scene: &'a Scene,
+    bvh: Bvh,
+    triangles: Vec<ShadingTriangle>,
+    bounds: (Vec3, Vec3),
+    /// Whether some surface lets light through, so that shadows have to be multiplied up.
+    dissolved: bool,
+}
+
+impl std::fmt::Debug for Renderer<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Renderer").field("triangles", &self.triangles.len()).field("bounds", &self.bounds).finish()
+    }
+}
+
+/// What shading needs to know of a triangle.
+#[derive(Debug, Clone, Copy)]
+struct ShadingTriangle {
+    corners: [Vec3; 3],
+    normals: [Vec3; 3],
+    /// Of the plane, unit length, counter-clockwise side.
+    face: Vec3,
+    material: u32,
+}
+
+impl<'a> Renderer<'a> {
+    /// Checks the scene and builds the tree for its rays.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] when a mesh or a material holds a value outside its domain.
+    pub fn new(scene: &'a Scene) -> Result<Self, Error> {
+        for mesh in &scene.meshes {
+            mesh.check(scene.materials.len())?;
+        }
+        for material in &scene.materials {
+            if !(0.0..=1.0).contains(&material.dissolve) {
+                let what = format!("the dissolve of material `{}`", material.name);
+                return Err(Error::setting(what, material.dissolve, "it lies between 0 and 1"));
+            }
+        }
+        let triangles: Vec<ShadingTriangle> = scene
+            .meshes
+            .iter()
+            .flat_map(|mesh| {
+                mesh.triangles.iter().map(|triangle| {
+                    let corners = mesh.corners(triangle);
+                    ShadingTriangle {
+                        corners,
+                        normals: triangle.normals.map(|normal| mesh.normals[normal as usize]),
+                        face: area_vector(corners).normalize_or_zero().as_vec3(),
+                        material: triangle.material,
+                    }
+                })
+            })
+            .collect();
+        let bounds = scene.bounds().ok_or_else(|| {
+            Error::setting("the number of triangles", 0, "a scene has at least one triangle")
+        })?;
+        let corners: Vec<[Vec3; 3]> = triangles.iter().map(|triangle| triangle.corners).collect();
+        let dissolved = scene.materials.iter().any(|material| material.dissolve < 1.0);
+        Ok(Self { scene, bvh: Bvh::new(&corners), triangles, bounds, dissolved })
+    }
+
+    /// Takes a picture: linear radiance, without exposure.
+    ///
+    /// It uses the threads of the current `rayon` pool and is the same for any number of them.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for settings, a camera or lights outside their domain.
+    pub fn render(&self, view: &View, settings: &Settings, progress: Option<Progress<'_>>) -> Result<Image, Error> {
+        settings.check()?;
+        let mut image = Image::new(settings.width, settings.height)?;
+        let aspect = settings.width as f32 / settings.height as f32;
+        let camera = view.camera_for(self.bounds.0, self.bounds.1, aspect);
+        let rays = camera.rays(settings.width, settings.height)?;
+        let pass = Pass { renderer: self, lights: Lights::new(&view.lights_for(&camera))?, background: view.background };
+        let samples = sample_points(settings.samples);
+        let weight = 1.0 / settings.samples as f32;
+        let rows_done = AtomicU64::new(0);
+        let rows = u64::from(settings.height);
+        image.pixels_mut().par_chunks_exact_mut(settings.width as usize).enumerate().for_each(|(y, row)| {
+            for (x, pixel) in row.iter_mut().enumerate() {
+                *pixel = (pass.pixel(&rays, x, y, &samples, settings.depth) * weight).into();
+            }
+            if let Some(progress) = progress {
+                progress(rows_done.fetch_add(1, Ordering::Relaxed) + 1, rows);
+            }
+        });
+        Ok(image)
+    }
+}
+
+/// Points in the unit square for the samples of a pixel: Hammersley's set, centred, so that one sample is the middle.
+fn sample_points(count: u32) -> Vec<[f32; 2]> {
+    let inverse = |at: u32| at.reverse_bits() as f32 * 0.5_f32.powi(32);
+    let mean = (0..count).map(inverse).sum::<f32>() / count as f32;
+    (0..count).map(|at| [(at as f32 + 0.5) / count as f32, inverse(at) - mean + 0.5]).collect()
+}
+
+/// The lights of a view, sorted by kind.
+struct Lights {
+    ambient: AmbientLight,
+    points: Vec<(PointLight, f32)>,
+    directional: Vec<DirectionalLight>,
+}
+
+impl Lights {
+    fn new(lights: &[Light]) -> Result<Self, Error> {
+        let colour = |colour: Rgb| match <[f32; 3]>::from(colour).iter().all(|part| part.is_finite() && *part >= 0.0) {
+            true => Ok(colour),
+            false => Err(Error::setting("the colour of a light", format!("{colour:?}"), "it is finite and not negative")),
+        };
+        let mut sorted = Self { ambient: AmbientLight::new(Rgb::splat(0.0)), points: Vec::new(), directional: Vec::new() };
+        for light in lights {
+            match *light {
+                Light::Point { position, intensity, radius } => {
+                    if !position.is_finite() {
+                        return Err(Error::setting("the position of a light", position, "its coordinates are finite"));
+                    }
+                    if !(radius >= 0.0 && radius.is_finite()) {
+                        return Err(Error::setting("the radius of a light", radius, "it is finite and not negative"));
+                    }
+                    sorted.points.push((PointLight::new(position.into(), colour(intensity)?), radius));
+                }
+                Light::Directional { to_light, irradiance } => {
+                    let to_light = to_light.as_dvec3().try_normalize().ok_or_else(|| {
+                        Error::setting("the direction of a light", to_light, "it is finite and not zero")
+                    })?;
+                    sorted.directional.push(DirectionalLight::new(to_light.as_vec3().into(), colour(irradiance)?));
+                }
+                Light::Ambient(radiance) => sorted.ambient.radiance = sorted.ambient.radiance + colour(radiance)?,
+            }
+        }
+        Ok(sorted)
+    }
+}
+
+/// One picture being taken.
+struct Pass<'a> {
+    renderer: &'a Renderer<'a>,
+    lights: Lights,
+    background: Background,
+}
+
+/// A point that is being shaded, seen from the unit direction `v`.
+struct Point<'a> {
+    triangle: &'a ShadingTriangle,
+    weights: [f32; 3],
+    position: Vec3,
+    v: Vec3,
+    /// The plane's normal on the viewer's side.
+    face: Vec3,
+    /// Where rays start that leave on the viewer's side.
+    outside: Vec3,
+    /// Where rays start that pass through.
+    inside: Vec3,
+    frame: Frame,
+}
+
+/// How far a ray starts from the surface, in units in the last place of the largest coordinate around.
+///
+/// A point on a triangle is only known up to rounding: it lies above or below the plane by up to about 4 of these
+/// units, and the ray test rounds by as much again. A ray that starts at the point itself meets the same triangle
+/// again at half of all points, and the surface is covered with a pattern of its own shadow (the test
+/// `without_an_offset_a_surface_shadows_itself` shows it). 32 units are a safe multiple, and are still only 2⁻¹⁸ of
+/// the size of the scene. A fixed distance would be too little far from the origin and too much in a small scene.
+const OFFSET_UNITS: f32 = 32.0;
+
+/// The least cosine between shading normal and viewer.
+const LEAST_COSINE: f32 = 1e-3;
+
+impl<'a> Point<'a> {
+    fn new(triangle: &'a ShadingTriangle, hit: &Hit, direction: Vec3) -> Self {
+        Self::with_offset(triangle, hit, direction, OFFSET_UNITS)
+    }
+
+    fn with_offset(triangle: &'a ShadingTriangle, hit: &Hit, direction: Vec3, units: f32) -> Self {
+        let v = -direction;
+        let [a, b, c] = triangle.corners;
+        let [wa, wb, wc] = hit.weights;
+        // From the corners, not along the ray: the error then does not grow with the distance of the viewer.
+        let position = a * wa + b * wb + c * wc;
+        let face = if triangle.face.dot(v) < 0.0 { -triangle.face } else { triangle.face };
+        let size = a.abs().max(b.abs()).max(c.abs()).max_element();
+        let offset = face * (units * f32::EPSILON * size);
+
+        let mut normal: Vec3 =
+            interpolate_normal(triangle.normals.map(Into::into), hit.weights, face.into()).into();
+        if normal.dot(face) < 0.0 {
+            normal = -normal;
+        }
+        if normal.dot(v) < LEAST_COSINE {
+            let across = (normal - v * normal.dot(v)).normalize_or(face);
+            normal = (across + v * LEAST_COSINE).normalize();
+        }
+        Self {
+            triangle,
+            weights: hit.weights,
+            position,
+            v,
+            face,
+            outside: position + offset,
+            inside: position - offset,
+            frame: Frame::from_normal(normal.into()),
+        }
+    }
+
+    /// Where shadow rays start: on the curved surface that the normals at the corners mean.
+    fn shadow_start(&self) -> Vec3 {
+        let corners = self.triangle.corners;
+        let mut lift = Vec3::ZERO;
+        for corner in 0..3 {
+            let normal = self.triangle.normals[corner];
+            let normal = if normal.dot(self.face) < 0.0 { -normal } else { normal };
+            // The distance of the point below the tangent plane of the corner.
+            let below = (self.position - corners[corner]).dot(normal).min(0.0);
+            lift -= normal * (below * self.weights[corner]);
+        }
+        self.outside + lift
+    }
+}
+
+/// Where in its cluster each light is sampled.
+#[derive(Debug, Clone, Copy)]
+struct Jitter([f32; 3]);
+
+impl Jitter {
+    /// For sample `sample` of a pixel: the additive recurrence R3 (Roberts, 2018), shifted by a hash of the pixel so
+    /// that neighbours differ.
+    fn new(x: usize, y: usize, sample: usize) -> Self {
+        let hash = |salt: u32| {
+            let mut bits = (x as u32).wrapping_mul(0x9e37_79b1) ^ (y as u32).wrapping_mul(0x85eb_ca77) ^ salt;
+            bits = (bits ^ (bits >> 16)).wrapping_mul(0x7feb_352d);
+            bits = (bits ^ (bits >> 15)).wrapping_mul(0x846c_a68b);
+            (bits ^ (bits >> 16)) as f32 * 0.5_f32.powi(32)
+        };
+        let steps = [0.819_172_5, 0.671_043_6, 0.549_700_5];
+        Self([0, 1, 2].map(|axis| (hash(axis as u32 * 0x27d4_eb2f) + steps[axis] * sample as f32).fract()))
+    }
+
+    /// A point of the unit ball, evenly spread.
+    fn in_ball(self) -> Vec3 {
+        let [a, b, c] = self.0;
+        let z = 1.0 - 2.0 * a;
+        let (sine, cosine) = (std::f32::consts::TAU * b).sin_cos();
+        let ring = (1.0 - z * z).max(0.0).sqrt();
+        Vec3::new(ring * cosine, ring * sine, z) * c.cbrt()
+    }
+}
+
+impl Pass<'_> {
+    fn pixel(&self, rays: &Rays, x: usize, y: usize, samples: &[[f32; 2]], depth: u32) -> Rgb {
+        let mut sum = Rgb::splat(0.0);
+        for (at, [dx, dy]) in samples.iter().enumerate() {
+            let direction = rays.direction(x as f32 + dx, y as f32 + dy);
+            sum = sum + self.radiance(rays.eye, direction, depth, Jitter::new(x, y, at));
+        }
+        sum
+    }
+
+    /// The radiance that arrives at `origin` from the unit direction `direction`.
+    fn radiance(&self, origin: Vec3, direction: Vec3, depth: u32, jitter: Jitter) -> Rgb {
+        let renderer = self.renderer;
+        let Some(hit) = renderer.bvh.nearest(origin.into(), direction.into(), f32::INFINITY) else {
+            return self.background.radiance(direction);
+        };
+        let triangle = &renderer.triangles[hit.triangle as usize];
+        let material = &renderer.scene.materials[triangle.material as usize];
+        let point = Point::new(triangle, &hit, direction);
+        if material.dissolve >= 1.0 || depth == 0 {
+            return self.surface(&point, material, depth, jitter);
+        }
+        let behind = self.radiance(point.inside, direction, depth - 1, jitter) * (1.0 - material.dissolve);
+        if material.dissolve <= 0.0 {
+            return behind;
+        }
+        self.surface(&point, material, depth, jitter) * material.dissolve + behind
+    }
+
+    fn surface(&self, point: &Point<'_>, material: &Material, depth: u32, jitter: Jitter) -> Rgb {
+        let own = material.emission + material.ambient * self.lights.ambient.radiance;
+        let lit = match &material.surface {
+            Surface::Black => own,
+            Surface::Diffuse(lobes) => own + self.lit(point, lobes, jitter),
+            Surface::BlinnTorrance(lobes) => own + self.lit(point, lobes, jitter),
+            Surface::Phong(lobes) => own + self.lit(point, lobes, jitter),
+            Surface::NormalizedPhong(lobes) => own + self.lit(point, lobes, jitter),
+            Surface::NormalizedBlinnPhong(lobes) => own + self.lit(point, lobes, jitter),
+            Surface::Other(lobes) => own + self.lit(point, &**lobes, jitter),
+        };
+        if is_black(material.mirror.ks()) || depth == 0 {
+            return lit;
+        }
+        let seen = material.mirror.reflect(point.frame.to_local(point.v.into()));
+        let mut direction: Vec3 = point.frame.to_world(seen.l).into();
+        let below = direction.dot(point.face).min(0.0);
+        direction = (direction - point.face * (2.0 * below)).normalize_or(point.face);
+        lit + seen.weight * self.radiance(point.outside, direction, depth - 1, jitter)
+    }
+
+    /// `Σ eval_cos(l, v) E` over the lights that reach the point.
+    fn lit<B: Brdf<f32> + ?Sized>(&self, point: &Point<'_>, lobes: &B, jitter: Jitter) -> Rgb {
+        let v = point.frame.to_local(point.v.into());
+        let start = point.shadow_start();
+        let mut sum = Rgb::splat(0.0);
+        for (light, radius) in &self.lights.points {
+            let mut light = *light;
+            if *radius > 0.0 {
+                light.position = (Vec3::from(light.position) + jitter.in_ball() * *radius).into();
+            }
+            let reflected = reflected(point, lobes, v, light.at(point.position.into()));
+            if !is_black(reflected) {
+                let way = Vec3::from(light.position) - start;
+                sum = sum + reflected * self.visible(start, way.normalize_or_zero(), way.length());
+            }
+        }
+        for light in &self.lights.directional {
+            let reflected = reflected(point, lobes, v, light.incident());
+            if !is_black(reflected) {
+                sum = sum + reflected * self.visible(start, light.to_light.into(), f32::INFINITY);
+            }
+        }
+        sum
+    }
+
+    /// The part of the light that arrives: the product of `1 − d` over all surfaces on the way.
+    fn visible(&self, start: Vec3, to_light: Vec3, distance: f32) -> f32 {
+        let renderer = self.renderer;
+        let (start, to_light) = (Vec3A::from(start), Vec3A::from(to_light));
+        if !renderer.dissolved {
+            return f32::from(u8::from(renderer.bvh.is_free(start, to_light, distance)));
+        }
+        let mut visible = 1.0;
+        renderer.bvh.for_each(start, to_light, distance, |triangle| {
+            let material = renderer.triangles[triangle as usize].material;
+            visible *= 1.0 - renderer.scene.materials[material as usize].dissolve;
+        });
+        visible
+    }
+}
+
+/// `eval_cos(l, v) E`, before shadows.
+fn reflected<B: Brdf<f32> + ?Sized>(point: &Point<'_>, lobes: &B, v: lobe::Vec3, light: Incident) -> Rgb {
+    lobes.eval_cos(point.frame.to_local(light.l), v) * light.irradiance
+}
+
+/// Exactly nothing. NaN is something.
+fn is_black(colour: Rgb) -> bool {
+    colour == Rgb::splat(0.0)
+}

@@ -1,0 +1,191 @@
+//! A scene: meshes, materials, and the views under which they are seen.
+
+use crate::camera::Camera;
+use crate::error::{Error, Warning};
+use crate::material::{Material, ShadingModel};
+use crate::mesh::Mesh;
+use crate::obj::{Model, Part};
+use glam::Vec3;
+use lobe::Rgb;
+
+/// Everything that can be drawn. It can be put together by hand, without a file:
+///
+/// ```
+/// use lobe_scene::{Material, Mesh, Renderer, Scene, Settings, View};
+/// use glam::Vec3;
+///
+/// let triangle = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+/// let scene = Scene {
+///     meshes: vec![Mesh::flat(triangle, &[[0, 1, 2]], 0)?],
+///     materials: vec![Material::default()],
+///     ..Scene::default()
+/// };
+/// let settings = Settings { width: 16, height: 9, ..Settings::default() };
+/// let image = Renderer::new(&scene)?.render(&View::default(), &settings, None)?;
+/// assert_eq!(image.pixels().len(), 144);
+/// # Ok::<(), lobe_scene::Error>(())
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    /// The surfaces. All share the one list of materials.
+    pub meshes: Vec<Mesh>,
+    /// The materials that [`Triangle::material`](crate::Triangle::material) counts.
+    pub materials: Vec<Material>,
+    /// Named pieces of the first mesh, when it came from a file.
+    pub parts: Vec<Part>,
+    /// Ways to look at it; the first one is the main one.
+    pub views: Vec<View>,
+    /// What was skipped or assumed when it was read.
+    pub warnings: Vec<Warning>,
+}
+
+impl Scene {
+    /// A model from a file, seen in the default view.
+    #[must_use]
+    pub fn from_model(model: Model, shading: ShadingModel) -> Self {
+        Self {
+            meshes: vec![model.mesh],
+            materials: model.materials.iter().map(|mtl| Material::from_mtl(mtl, shading)).collect(),
+            parts: model.parts,
+            views: vec![View::default()],
+            warnings: model.warnings,
+        }
+    }
+
+    /// The view of this name.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] with the names that there are.
+    pub fn view(&self, name: &str) -> Result<&View, Error> {
+        self.views.iter().find(|view| view.name == name).ok_or_else(|| {
+            let names: Vec<_> = self.views.iter().map(|view| view.name.as_str()).collect();
+            Error::setting("the view", format!("`{name}`"), format!("this scene has {}", names.join(", ")))
+        })
+    }
+
+    /// The smallest box around everything, as its two extreme corners; `None` without triangles.
+    #[must_use]
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let boxes = self.meshes.iter().filter_map(Mesh::bounds);
+        boxes.reduce(|(low, high), (other_low, other_high)| (low.min(other_low), high.max(other_high)))
+    }
+
+    /// How many triangles there are in all.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.triangles.len()).sum()
+    }
+}
+
+/// A light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Light {
+    /// A point of intensity `I`, in W·sr⁻¹: irradiance `I/r²`. With a radius it is a ball of points, one of which is
+    /// picked for each sample of a pixel: shadows become soft, and with few samples grainy.
+    Point {
+        /// Where it is.
+        position: Vec3,
+        /// Intensity.
+        intensity: Rgb,
+        /// Radius of the ball; 0 for a point.
+        radius: f32,
+    },
+    /// Light from one direction, the same everywhere.
+    Directional {
+        /// The direction to the light, of any length.
+        to_light: Vec3,
+        /// Irradiance on a surface that faces it, in W·m⁻².
+        irradiance: Rgb,
+    },
+    /// Light from everywhere: radiance that the ambient reflection of a material multiplies.
+    Ambient(Rgb),
+}
+
+/// What is seen where there is nothing, also in mirrors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Background {
+    /// The same radiance everywhere.
+    Solid(Rgb),
+    /// A blend from straight down (−y) to straight up (+y), linear in the y component of the direction.
+    Gradient {
+        /// Radiance from below.
+        bottom: Rgb,
+        /// Radiance from above.
+        top: Rgb,
+    },
+}
+
+impl Default for Background {
+    fn default() -> Self {
+        Self::Solid(Rgb::splat(0.0))
+    }
+}
+
+impl Background {
+    /// The radiance from the unit direction `towards`.
+    #[must_use]
+    pub fn radiance(&self, towards: Vec3) -> Rgb {
+        match *self {
+            Self::Solid(colour) => colour,
+            Self::Gradient { bottom, top } => {
+                let up = (0.5 + 0.5 * towards.y).clamp(0.0, 1.0);
+                bottom * (1.0 - up) + top * up
+            }
+        }
+    }
+}
+
+/// A way to look at a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct View {
+    /// Its name.
+    pub name: String,
+    /// `None`: a camera that sees everything, from slightly above and to the right.
+    pub camera: Option<Camera>,
+    /// `None`: one point light up and to the left behind the camera, and a weak ambient light.
+    pub lights: Option<Vec<Light>>,
+    /// What is seen where there is nothing.
+    pub background: Background,
+    /// Exposure in stops, for [`Display`](crate::image::Display).
+    pub exposure: f32,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            name: "default".to_owned(),
+            camera: None,
+            lights: None,
+            background: Background::Solid(Rgb::splat(0.05)),
+            exposure: 0.0,
+        }
+    }
+}
+
+impl View {
+    /// The camera of this view, or the one that frames a box in a picture of the given width divided by height.
+    #[must_use]
+    pub fn camera_for(&self, low: Vec3, high: Vec3, aspect: f32) -> Camera {
+        self.camera.unwrap_or_else(|| Camera::framing(low, high, aspect))
+    }
+
+    /// The lights of this view, or the default ones for a camera.
+    ///
+    /// The default point light stands at the height of one camera distance above and half of one to the left of the
+    /// camera. Its intensity gives a surface that faces it at the target the irradiance π: a white diffuse surface
+    /// then has the radiance 1.
+    #[must_use]
+    pub fn lights_for(&self, camera: &Camera) -> Vec<Light> {
+        if let Some(lights) = &self.lights {
+            return lights.clone();
+        }
+        let back = camera.eye - camera.target;
+        let distance = back.length();
+        let up = camera.up.normalize_or_zero();
+        let right = up.cross(back).normalize_or_zero();
+        let position = camera.eye + (up - 0.5 * right) * distance;
+        let intensity = Rgb::splat(std::f32::consts::PI * (position - camera.target).length_squared());
+        vec![Light::Point { position, intensity, radius: 0.0 }, Light::Ambient(Rgb::splat(0.1))]
+    }
+}
