@@ -35,7 +35,7 @@ impl Scalar for f64 {}
 /// # Errors
 /// What is wrong with the line, and what would be right.
 pub fn parse_line<R: Scalar>(line: &[u8], normalize: bool) -> Result<Line<R>, String> {
-    const RIGHT: &str = "six numbers, lx,ly,lz,vx,vy,vz";
+    const RIGHT: &str = "a line has six numbers, lx,ly,lz,vx,vy,vz";
     let text = std::str::from_utf8(line).map_err(|_| format!("this is not text; {RIGHT}"))?.trim();
     if text.is_empty() || text.starts_with('#') || is_header(text) {
         return Ok(Line::Skip);
@@ -146,7 +146,7 @@ fn stream<R: Scalar>(spec: &Spec, witness: R, normalize: bool, json: bool) -> Re
             }
         }
         if line.len() as u64 == MAX_LINE && !line.ends_with(b"\n") {
-            let right = "six numbers on each line, lx,ly,lz,vx,vy,vz";
+            let right = "a line has six numbers, lx,ly,lz,vx,vy,vz";
             break Some(Failure::at("<stdin>", number, format!("this line is longer than {MAX_LINE} bytes"), right));
         }
         // A byte order mark, as some spreadsheets write it.
@@ -193,10 +193,10 @@ mod tests {
 
     #[test]
     fn wrong_lines_say_what_would_be_right() {
-        assert_eq!(problem("0,0,1,0,0"), "5 numbers; six numbers, lx,ly,lz,vx,vy,vz");
-        assert_eq!(problem("0,0,1,0,0,1,0"), "7 numbers; six numbers, lx,ly,lz,vx,vy,vz");
-        assert_eq!(problem("0,0,1,0,x,1"), "`x` is not a number; six numbers, lx,ly,lz,vx,vy,vz");
-        assert_eq!(problem("0,0,1,0,NaN,1"), "`NaN` is not a finite number; six numbers, lx,ly,lz,vx,vy,vz");
+        assert_eq!(problem("0,0,1,0,0"), "5 numbers; a line has six numbers, lx,ly,lz,vx,vy,vz");
+        assert_eq!(problem("0,0,1,0,0,1,0"), "7 numbers; a line has six numbers, lx,ly,lz,vx,vy,vz");
+        assert_eq!(problem("0,0,1,0,x,1"), "`x` is not a number; a line has six numbers, lx,ly,lz,vx,vy,vz");
+        assert_eq!(problem("0,0,1,0,NaN,1"), "`NaN` is not a finite number; a line has six numbers, lx,ly,lz,vx,vy,vz");
         assert_eq!(problem("0,0,1,0,0,0"), "direction v has length 0; a direction has unit length");
         assert_eq!(problem("0,0,2,0,0,1"), "direction l has length 2; give it unit length, or use --normalize");
     }

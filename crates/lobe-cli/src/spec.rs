@@ -273,14 +273,14 @@ impl LobeSpec {
 
 /// A BRDF put together at run time. Choosing the model by `match` costs a branch a lobe and a pair, which is nothing
 /// beside reading and printing the numbers; a renderer chooses by type.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Material<R> {
     zero: R,
     lobes: Vec<Lobe<R>>,
 }
 
 /// Any lobe.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 enum Lobe<R> {
     Lambert(Lambert<R>),
     Phong(Phong<R>),
@@ -358,8 +358,7 @@ fn lobes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<LobeSpec>, D:
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Fields {
-    #[serde(deserialize_with = "model")]
-    model: &'static str,
+    model: Model,
     #[serde(default, deserialize_with = "albedo")]
     albedo: Option<[f64; 3]>,
     #[serde(default, deserialize_with = "ks")]
@@ -377,7 +376,7 @@ impl TryFrom<Fields> for RawLobe {
     type Error = String;
 
     fn try_from(fields: Fields) -> Result<Self, String> {
-        let Fields { model, albedo, ks, q, normalization } = fields;
+        let Fields { model: Model(model), albedo, ks, q, normalization } = fields;
         let takes = MODELS.iter().find(|(name, _)| *name == model).map_or(&[][..], |(_, takes)| takes);
         let listed = takes.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
         let given = [
@@ -405,24 +404,29 @@ impl TryFrom<Fields> for RawLobe {
     }
 }
 
-fn model<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static str, D::Error> {
-    struct Model;
-    impl Visitor<'_> for Model {
-        type Value = &'static str;
-        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            f.write_str("the name of a model")
-        }
-        fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<&'static str, E> {
-            match MODELS.iter().find(|(name, _)| *name == text) {
-                Some((name, _)) => Ok(name),
-                None => {
-                    let known: Vec<_> = MODELS.iter().map(|(name, _)| *name).collect();
-                    Err(E::custom(format!("unknown model `{text}`; the models are {}", known.join(", "))))
+/// A name out of [`MODELS`].
+struct Model(&'static str);
+
+impl<'de> Deserialize<'de> for Model {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Name;
+        impl Visitor<'_> for Name {
+            type Value = Model;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("the name of a model")
+            }
+            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Model, E> {
+                match MODELS.iter().find(|(name, _)| *name == text) {
+                    Some((name, _)) => Ok(Model(name)),
+                    None => {
+                        let known: Vec<_> = MODELS.iter().map(|(name, _)| *name).collect();
+                        Err(E::custom(format!("unknown model `{text}`; the models are {}", known.join(", "))))
+                    }
                 }
             }
         }
+        deserializer.deserialize_str(Name)
     }
-    deserializer.deserialize_str(Model)
 }
 
 fn albedo<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 3]>, D::Error> {
