@@ -3,7 +3,7 @@
 //! The tree is built and walked by `obvhs`; the triangle test is here, because shared edges must not leak: a ray that
 //! meets the edge between two triangles hits at least one of them. The test takes the signs of three volumes, one for
 //! each edge, and a shared edge gives both neighbours the same volume with exactly the opposite sign (the test of
-//! Embree's robust mode, after Plücker coordinates).
+//! Embree's robust mode, after Plücker coordinates). Where a sign is in doubt it is computed again in `f64`.
 
 use glam::{Vec3, Vec3A};
 use obvhs::aabb::Aabb;
@@ -53,8 +53,7 @@ impl Bvh {
             .collect();
         // These are the steps of obvhs's "medium" build, without the checks that it makes in debug builds.
         let indices = (0..triangles.len() as u32).collect();
-        let mut tree =
-            PlocBuilder::new().build(PlocSearchDistance::Medium, &boxes, indices, SortPrecision::U64, 3);
+        let mut tree = PlocBuilder::new().build(PlocSearchDistance::Medium, &boxes, indices, SortPrecision::U64, 3);
         let mut optimizer = ReinsertionOptimizer::default();
         optimizer.run(&mut tree, 0.05, None);
         collapse(&mut tree, 8, 3.0);
@@ -62,8 +61,7 @@ impl Bvh {
         tree.max_depth = depth(&tree) + 1;
 
         let original = std::mem::take(&mut tree.primitive_indices);
-        let corners =
-            original.iter().map(|&at| Corners(triangles[at as usize].map(Vec3A::from))).collect();
+        let corners = original.iter().map(|&at| Corners(triangles[at as usize].map(Vec3A::from))).collect();
         Self { tree, corners, original }
     }
 
@@ -88,17 +86,6 @@ impl Bvh {
         let ray = Ray::new(origin, direction, 0.0, t_max);
         self.tree.ray_traverse_miss(ray, |ray, at| self.corners[at].intersect(ray).map_or(f32::INFINITY, |(t, _)| t))
     }
-
-    /// Calls `f` with each triangle that the ray meets before `t_max`, in no particular order.
-    #[inline]
-    pub(crate) fn for_each(&self, origin: Vec3A, direction: Vec3A, t_max: f32, mut f: impl FnMut(u32)) {
-        let ray = Ray::new(origin, direction, 0.0, t_max);
-        self.tree.ray_traverse_anyhit(ray, |ray, at| {
-            if self.corners[at].intersect(ray).is_some_and(|(t, _)| t < ray.tmax) {
-                f(self.original[at]);
-            }
-        });
-    }
 }
 
 impl Corners {
@@ -112,10 +99,22 @@ impl Corners {
         let w1 = e0.cross(v2 + v0).dot(ray.direction);
         let w2 = e1.cross(v0 + v1).dot(ray.direction);
         let w0 = e2.cross(v1 + v2).dot(ray.direction);
-        let inside = w0.min(w1).min(w2) >= 0.0 || w0.max(w1).max(w2) <= 0.0;
-        if !inside {
-            return None;
+        let mut weights = [w0, w1, w2];
+        if !same_sign(weights) {
+            // A volume below its rounding error has no sign to speak of, and around a point that several triangles
+            // share all of them could say no. Then the signs are taken again with twice the digits.
+            let edge = e0.abs().max(e1.abs()).max(e2.abs()).max_element();
+            let reach = v0.abs().max(v1.abs()).max(v2.abs()).max_element();
+            let unsure = 32.0 * f32::EPSILON * edge * reach;
+            if w0.min(w1).min(w2) < -unsure && w0.max(w1).max(w2) > unsure {
+                return None;
+            }
+            weights = volumes_in_double([v0, v1, v2], ray.direction);
+            if !same_sign(weights) {
+                return None;
+            }
         }
+        let [w0, w1, w2] = weights;
         let normal = e0.cross(e1);
         let sum = w0 + w1 + w2;
         let t = v0.dot(normal) / normal.dot(ray.direction);
@@ -125,6 +124,20 @@ impl Corners {
         }
         Some((t, [w0 / sum, w1 / sum, w2 / sum]))
     }
+}
+
+#[inline(always)]
+fn same_sign([a, b, c]: [f32; 3]) -> bool {
+    a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0
+}
+
+/// The volumes of [`Corners::intersect`], in `f64`.
+#[cold]
+fn volumes_in_double(corners: [Vec3A; 3], direction: Vec3A) -> [f32; 3] {
+    let [v0, v1, v2] = corners.map(|corner| corner.as_dvec3());
+    let direction = direction.as_dvec3();
+    let volume = |a: glam::DVec3, b: glam::DVec3| (b - a).cross(a + b).dot(direction) as f32;
+    [volume(v2, v1), volume(v0, v2), volume(v1, v0)]
 }
 
 /// The most nodes that can wait on the stack: the depth of the tree.
@@ -139,4 +152,71 @@ fn depth(tree: &Bvh2) -> usize {
         }
     }
     deepest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::procedural::sphere;
+    use proptest::prelude::*;
+
+    fn triangles(around: u32) -> Vec<[Vec3; 3]> {
+        let (points, faces) = sphere(Vec3::new(3.0, -2.0, 1.0), 1.0, around);
+        faces.iter().map(|face| face.map(|at| points[at as usize])).collect()
+    }
+
+    #[test]
+    fn the_tree_is_the_same_for_any_number_of_threads() {
+        let triangles = triangles(120);
+        let build = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let bvh = pool.install(|| Bvh::new(&triangles));
+            let nodes: Vec<_> = bvh
+                .tree
+                .nodes
+                .iter()
+                .map(|node| (node.first_index, node.prim_count, node.aabb.min, node.aabb.max))
+                .collect();
+            (bvh.original, nodes)
+        };
+        let one = build(1);
+        assert!(one == build(2) && one == build(7));
+    }
+
+    /// From inside a closed surface every ray hits, also those aimed exactly at points and edges.
+    #[test]
+    fn a_closed_surface_has_no_holes() {
+        let triangles = triangles(40);
+        let bvh = Bvh::new(&triangles);
+        let inside = Vec3::new(3.1, -2.2, 1.05);
+        for [a, b, c] in &triangles {
+            for target in [*a, (*a + *b) / 2.0, *a * 0.3 + *b * 0.7, *b * 0.99 + *c * 0.01, (*a + *b + *c) / 3.0] {
+                let direction = (target - inside).normalize();
+                assert!(bvh.nearest(inside.into(), direction.into(), f32::INFINITY).is_some(), "{target}");
+                assert!(!bvh.is_free(inside.into(), direction.into(), f32::INFINITY), "{target}");
+            }
+        }
+    }
+
+    proptest! {
+        /// The tree finds what trying all triangles finds.
+        #[test]
+        fn nearest_is_the_nearest(
+            points in prop::collection::vec(prop::array::uniform3(-10.0_f32..10.0), 3..60),
+            origin in prop::array::uniform3(-12.0_f32..12.0),
+            direction in prop::array::uniform3(-1.0_f32..1.0),
+        ) {
+            let triangles: Vec<[Vec3; 3]> =
+                points.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]].map(Vec3::from)).collect();
+            let direction = Vec3A::from(direction).normalize_or(Vec3A::X);
+            let origin = Vec3A::from(origin);
+            let bvh = Bvh::new(&triangles);
+            let found = bvh.nearest(origin, direction, f32::INFINITY);
+            let ray = Ray::new(origin, direction, 0.0, f32::INFINITY);
+            let all = triangles.iter().filter_map(|corners| Corners(corners.map(Vec3A::from)).intersect(&ray));
+            let expected = all.map(|(t, _)| t).fold(f32::INFINITY, f32::min);
+            prop_assert_eq!(found.map_or(f32::INFINITY, |hit| hit.t), expected);
+            prop_assert_eq!(bvh.is_free(origin, direction, f32::INFINITY), found.is_none());
+        }
+    }
 }

@@ -40,7 +40,9 @@ impl Camera {
         let forward = (self.target.as_dvec3() - self.eye.as_dvec3())
             .try_normalize()
             .filter(|_| self.eye.is_finite() && self.target.is_finite())
-            .ok_or_else(|| Error::setting("the target of the camera", self.target, "it is a point apart from the eye"))?;
+            .ok_or_else(|| {
+                Error::setting("the target of the camera", self.target, "it is a point apart from the eye")
+            })?;
         let right = forward
             .cross(self.up.as_dvec3().normalize_or_zero())
             .try_normalize()
@@ -102,7 +104,8 @@ mod tests {
             for (width, height) in [(160, 90), (50, 200)] {
                 let camera = Camera::framing(low, high, width as f32 / height as f32);
                 let rays = camera.rays(width, height)?;
-                let (forward, top) = (rays.direction(width as f32 / 2.0, height as f32 / 2.0), rays.direction(width as f32 / 2.0, 0.0));
+                let (forward, top) =
+                    (rays.direction(width as f32 / 2.0, height as f32 / 2.0), rays.direction(width as f32 / 2.0, 0.0));
                 for corner in 0..8 {
                     let point = Vec3::new(
                         if corner & 1 == 0 { low.x } else { high.x },

@@ -151,18 +151,16 @@ impl Image {
     }
 
     fn exr(&self) -> Result<Vec<u8>, exr::error::Error> {
-        use exr::prelude::{Encoding, Image as Exr, ImageAttributes, Layer, LayerAttributes, SpecificChannels, WritableImage as _};
+        use exr::prelude::{
+            Encoding, Image as Exr, ImageAttributes, Layer, LayerAttributes, SpecificChannels, WritableImage as _,
+        };
         let size = (self.width as usize, self.height as usize);
         let colour = |at: exr::prelude::Vec2<usize>| {
             let [r, g, b] = self.pixels[at.y() * size.0 + at.x()];
             (r, g, b)
         };
-        let layer = Layer::new(
-            size,
-            LayerAttributes::default(),
-            Encoding::FAST_LOSSLESS,
-            SpecificChannels::rgb(colour),
-        );
+        let layer =
+            Layer::new(size, LayerAttributes::default(), Encoding::FAST_LOSSLESS, SpecificChannels::rgb(colour));
         let image = Exr::new(ImageAttributes::new(layer.absolute_bounds()), layer);
         let mut bytes = io::Cursor::new(Vec::new());
         image.write().non_parallel().to_buffered(&mut bytes)?;

@@ -1,7 +1,50 @@
-//! To be written.
+//! Wavefront OBJ and MTL in, lobes out, and a small ray caster that shades them.
+//!
+//! ```
+//! use lobe_scene::image::Display;
+//! use lobe_scene::{LoadOptions, Renderer, Settings, default_scene};
+//!
+//! let scene = default_scene(&LoadOptions::default())?;
+//! let settings = Settings { width: 64, height: 36, ..Settings::default() };
+//! let image = Renderer::new(&scene)?.render(&scene.views[0], &settings, None)?;
+//! # let folder = tempfile::tempdir().expect("a folder");
+//! # std::env::set_current_dir(&folder).expect("to go there");
+//! image.save("lecture.png".as_ref(), &Display { exposure: scene.views[0].exposure, ..Display::default() })?;
+//! # Ok::<(), lobe_scene::Error>(())
+//! ```
+//!
+//! MTL is the lecture's model: `Ka`, `Kd`, `Ks` and `Ns` are its ambient, diffuse and specular coefficients and its
+//! exponent. So a material file becomes a sum of lobes of the crate [`lobe`] without guessing.
+//!
+//! | where | what |
+//! |---|---|
+//! | [`load`], [`default_scene`] | a [`Scene`] from an `.obj` or `.json` file, or the one that is built in |
+//! | [`parse_description`] | the JSON: model, cameras, lights, views |
+//! | [`obj`], [`mtl`] | the readers, on text in memory; what they accept and what they say |
+//! | [`Smoothing`] | normals where a file has none |
+//! | [`Material`] | how a material becomes lobes, and in which units |
+//! | [`Renderer`] | the picture: shadows, mirrors, two sides, smooth outlines |
+//! | [`image`] | PNG, EXR and PFM, written without ever leaving half a file |
+//! | [`procedural`] | scenes made by a formula |
+//!
+//! # Units
+//!
+//! A point light of intensity `I` (W·sr⁻¹) gives the irradiance `E = I/r²`; a surface sends out the radiance
+//! `eval_cos · E`. The lecture's `L_i` is `I/π`: see [`Material`]. Colours are linear RGB everywhere; the curve of
+//! sRGB is applied when a PNG file is written.
+//!
+//! # Limits
+//!
+//! No texture maps, no refraction, no light that bounces between diffuse surfaces. Coordinates up to
+//! [`MAX_COORDINATE`]. Nothing that a file holds makes a function panic, and nothing is allocated from a number that
+//! a file merely states.
 
+#![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
+
+mod builtin;
 mod bvh;
 mod camera;
+mod description;
 mod error;
 pub mod image;
 mod lines;
@@ -10,11 +53,14 @@ mod mesh;
 pub mod mtl;
 mod normals;
 pub mod obj;
+pub mod procedural;
 mod render;
 mod scene;
 mod triangulate;
 
+pub use builtin::default_scene;
 pub use camera::Camera;
+pub use description::{LoadOptions, load, parse as parse_description};
 pub use error::{Error, Warning};
 pub use image::Image;
 pub use material::{AnyBrdf, LobeRecord, Material, ShadingModel, Surface};

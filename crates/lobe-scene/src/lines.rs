@@ -127,8 +127,10 @@ impl Place<'_> {
                 format!("`{}` is not a finite number", shown(word)),
                 "write a decimal number between -3.4e38 and 3.4e38",
             )),
-            None => Err(self
-                .error(format!("`{}` is not a number", shown(word)), "write a decimal number such as 1, -0.5 or 2.5e-3")),
+            None => Err(self.error(
+                format!("`{}` is not a number", shown(word)),
+                "write a decimal number such as 1, -0.5 or 2.5e-3",
+            )),
         }
     }
 }
@@ -156,10 +158,7 @@ mod tests {
 
     #[test]
     fn a_comment_swallows_no_line_and_a_name_may_hold_a_hash() {
-        assert_eq!(
-            all("# C:\\scenes\\\nusemtl Material#25 # red\n   #\n"),
-            [(2, "usemtl Material#25".into())]
-        );
+        assert_eq!(all("# C:\\scenes\\\nusemtl Material#25 # red\n   #\n"), [(2, "usemtl Material#25".into())]);
     }
 
     #[test]

@@ -1,20 +1,4 @@
 //! A material: the lecture's equation as lobes.
-//!
-//! # One radiometric convention
-//!
-//! A point light has the intensity `I`, a surface that faces it at distance `r` receives the irradiance `E = I/r²`,
-//! and the radiance towards the viewer is
-//!
-//! ```text
-//! L = Ke + Ka Ia + Σ eval_cos(l, v) E + Ks L(mirror direction)
-//! ```
-//!
-//! The lecture writes `L_o = ka kd + [kd (n·l) + ks (n·h)^q] L_i/r²`. That is this, with `L_i = I/π`: the diffuse
-//! term is [`Lambert`] with albedo `kd`, since `eval_cos = kd/π · (n·l)`, and the highlight is
-//! [`BlinnTorranceHighlight`] with `eval_cos = ks/π · (n·h)^q`. So a light that the lecture gives as `L_i` is
-//! entered here as `I = π L_i`, and a white diffuse surface does not send out more than it receives.
-//!
-//! `Ka Ia` is the ambient term as MTL has it: `Ka` alone, where the lecture writes `ka kd`.
 
 use crate::mtl::{Illumination, MtlMaterial};
 use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
@@ -99,7 +83,23 @@ pub enum Surface {
     Other(Arc<dyn AnyBrdf>),
 }
 
-/// What a surface does with light.
+/// What a surface does with light: the lecture's equation as lobes.
+///
+/// # One radiometric convention
+///
+/// A point light has the intensity `I`, a surface that faces it at distance `r` receives the irradiance `E = I/r²`,
+/// and the radiance towards the viewer is
+///
+/// ```text
+/// L = Ke + Ka Ia + Σ eval_cos(l, v) E + Ks L(mirror direction)
+/// ```
+///
+/// The lecture writes `L_o = ka kd + [kd (n·l) + ks (n·h)^q] L_i/r²`. That is this, with `L_i = I/π`: the diffuse
+/// term is [`Lambert`] with albedo `kd`, since `eval_cos = kd/π · (n·l)`, and the highlight is
+/// [`BlinnTorranceHighlight`] with `eval_cos = ks/π · (n·h)^q`. So a light that the lecture gives as `L_i` is
+/// entered here as `I = π L_i`, and a white diffuse surface does not send out more than it receives.
+///
+/// `Ka Ia` is the ambient term as MTL has it: `Ka` alone, where the lecture writes `ka kd`.
 #[derive(Debug, Clone)]
 pub struct Material {
     /// Its name in messages and tables.
@@ -225,9 +225,10 @@ impl Surface {
         match self {
             Self::Black => Vec::new(),
             Self::Diffuse(diffuse) => vec![LobeRecord::lambert(*diffuse)],
-            Self::BlinnTorrance(Sum { a, b }) => {
-                highlight(*a, LobeRecord::new("blinn-torrance-highlight", b.ks(), Some(b.shininess()), b.map(f64::from)))
-            }
+            Self::BlinnTorrance(Sum { a, b }) => highlight(
+                *a,
+                LobeRecord::new("blinn-torrance-highlight", b.ks(), Some(b.shininess()), b.map(f64::from)),
+            ),
             Self::Phong(Sum { a, b }) => {
                 highlight(*a, LobeRecord::new("phong-highlight", b.ks(), Some(b.shininess()), b.map(f64::from)))
             }

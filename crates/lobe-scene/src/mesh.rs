@@ -65,8 +65,7 @@ impl Mesh {
 
     /// Takes out triangles without an area (or with one that `f32` cannot hold) and says which were kept.
     pub(crate) fn drop_degenerate(&mut self) -> Vec<bool> {
-        let kept: Vec<bool> =
-            self.triangles.iter().map(|triangle| has_area(self.corners(triangle))).collect();
+        let kept: Vec<bool> = self.triangles.iter().map(|triangle| has_area(self.corners(triangle))).collect();
         let mut at = 0;
         self.triangles.retain(|_| {
             at += 1;
@@ -117,7 +116,8 @@ impl Mesh {
     pub fn check(&self, materials: usize) -> Result<(), Error> {
         self.check_positions()?;
         for (at, normal) in self.normals.iter().enumerate() {
-            if !((normal.length_squared() - 1.0).abs() < 1e-3) {
+            let is_unit = (normal.length_squared() - 1.0).abs() < 1e-3;
+            if !is_unit {
                 return Err(Error::setting(format!("normal {at} of the mesh"), normal, "its length is 1"));
             }
         }

@@ -173,9 +173,7 @@ impl Library {
                 material.ns = one_number(place, key, rest)?;
                 draft.exponent_given = true;
                 if !(0.0..=MAX_EXPONENT).contains(&material.ns) {
-                    return Err(
-                        place.error(format!("Ns is {}", material.ns), "an exponent lies between 0 and 1000000")
-                    );
+                    return Err(place.error(format!("Ns is {}", material.ns), "an exponent lies between 0 and 1000000"));
                 }
             }
             b"d" | b"Tr" => {
@@ -199,7 +197,12 @@ impl Library {
             }
             _ if is_map(key) => self.warnings.push(
                 place.line,
-                format!("material `{}`: the map `{} {}` is not supported and has no effect", material.name, shown(key), shown(rest)),
+                format!(
+                    "material `{}`: the map `{} {}` is not supported and has no effect",
+                    material.name,
+                    shown(key),
+                    shown(rest)
+                ),
             ),
             _ => {
                 if self.unknown.len() < Warnings::LIMIT && self.unknown.insert(key.to_vec()) {
@@ -301,9 +304,12 @@ fn one_number(place: Place<'_>, key: &[u8], rest: &[u8]) -> Result<f32, Error> {
     let mut list = words(rest);
     match (list.next(), list.next()) {
         (Some(word), None) => place.number(word),
-        (None, _) => Err(place.error(format!("{} without a number", shown(key)), format!("write `{} number`", shown(key)))),
+        (None, _) => {
+            Err(place.error(format!("{} without a number", shown(key)), format!("write `{} number`", shown(key))))
+        }
         (Some(_), Some(_)) => {
-            Err(place.error(format!("{} has more than one number", shown(key)), format!("write `{} number`", shown(key))))
+            Err(place
+                .error(format!("{} has more than one number", shown(key)), format!("write `{} number`", shown(key))))
         }
     }
 }

@@ -307,8 +307,7 @@ impl<'a> Reader<'a> {
         if count == 3 {
             self.cut.push([0, 1, 2]);
         } else {
-            self.points
-                .extend(self.corners.iter().map(|corner| self.mesh.positions[corner.position as usize]));
+            self.points.extend(self.corners.iter().map(|corner| self.mesh.positions[corner.position as usize]));
             if triangulate(&self.points, &mut self.cut) == Cut::Guess {
                 self.guesses.add(place.line);
             }
@@ -462,11 +461,8 @@ impl<'a> Reader<'a> {
         if self.mesh.triangles.is_empty() {
             return Err(Error::NoTriangles { file: self.file.to_owned() });
         }
-        let smoothing = if self.groups_given {
-            Smoothing::Groups
-        } else {
-            Smoothing::Crease { degrees: options.crease_degrees }
-        };
+        let smoothing =
+            if self.groups_given { Smoothing::Groups } else { Smoothing::Crease { degrees: options.crease_degrees } };
         normals::fill(&mut self.mesh, &self.groups, smoothing);
         let materials = self.resolve_materials();
         Ok(Model { mesh: self.mesh, materials, parts: self.parts, warnings: self.warnings.finish() })
@@ -546,9 +542,9 @@ fn index(place: Place<'_>, word: &[u8], piece: &[u8], known: usize, kind: &str) 
         return Err(place.error(format!("`{}` is not a corner", shown(word)), FACE_HELP));
     }
     // More digits than any file can count to stay out of range instead of wrapping around.
-    let number = digits.iter().fold(0_usize, |number, digit| {
-        number.saturating_mul(10).saturating_add(usize::from(digit - b'0'))
-    });
+    let number = digits
+        .iter()
+        .fold(0_usize, |number, digit| number.saturating_mul(10).saturating_add(usize::from(digit - b'0')));
     if number == 0 {
         let expected = format!("the first `{kind}` is 1, the newest is -1");
         return Err(place.error(format!("index 0 in `{}`", shown(word)), expected));

@@ -2,22 +2,6 @@
 //!
 //! For every sample of a pixel a ray finds the nearest triangle; there each light that is not in shadow gives
 //! `eval_cos(l, v) · E`, a mirror sends a ray on, and a dissolved surface lets one through.
-//!
-//! # What happens at the edges
-//!
-//! * **Two sides.** Every surface is seen and lit from both sides. Its normals are turned to the side of the viewer,
-//!   whatever way round the file lists the corners.
-//! * **Shading normals that face away.** At the outline of a coarse smooth mesh the interpolated normal can point
-//!   away from a viewer who does see the triangle. It is then bent in the plane of view to the nearest direction with
-//!   `n·v = 0.001`, so that no lobe is asked about a viewer below the horizon.
-//! * **Shadows of smooth meshes.** A ray that starts on a flat triangle of a smooth mesh meets its neighbours near the
-//!   shadow's edge, and the facets show. The start is moved out to the curved surface that the normals mean (Hanika,
-//!   *Hacking the shadow terminator*, Ray Tracing Gems II, 2021).
-//! * **Mirrors under the horizon.** A reflection that would go below the triangle is mirrored up at it.
-//! * **Depth.** Mirror reflections and passages through dissolved surfaces are followed up to [`Settings::depth`] in a
-//!   row. Beyond it a mirror is black and a dissolved surface is solid.
-//!
-//! The picture does not depend on the number of threads: each pixel is computed by itself, in one order.
 
 use crate::bvh::{Bvh, Hit};
 use crate::camera::Rays;
@@ -26,7 +10,7 @@ use crate::image::Image;
 use crate::material::{Material, Surface};
 use crate::mesh::area_vector;
 use crate::scene::{Background, Light, Scene, View};
-use glam::{Vec3, Vec3A};
+use glam::Vec3;
 use lobe::{AmbientLight, Brdf, DirectionalLight, Frame, Incident, PointLight, Rgb, interpolate_normal};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -66,6 +50,22 @@ impl Settings {
 }
 
 /// A scene made ready for rays.
+///
+/// # What happens at the edges
+///
+/// * **Two sides.** Every surface is seen and lit from both sides. Its normals are turned to the side of the viewer,
+///   whatever way round the file lists the corners.
+/// * **Shading normals that face away.** At the outline of a coarse smooth mesh the interpolated normal can point
+///   away from a viewer who does see the triangle. It is then bent in the plane of view to the nearest direction with
+///   `n·v = 0.001`, so that no lobe is asked about a viewer below the horizon.
+/// * **Shadows of smooth meshes.** A ray that starts on a flat triangle of a smooth mesh meets its neighbours near the
+///   shadow's edge, and the facets show. The start is moved out to the curved surface that the normals mean (Hanika,
+///   *Hacking the shadow terminator*, Ray Tracing Gems II, 2021).
+/// * **Mirrors under the horizon.** A reflection that would go below the triangle is mirrored up at it.
+/// * **Depth.** Mirror reflections and passages through dissolved surfaces are followed up to [`Settings::depth`] in a
+///   row. Beyond it a mirror is black and a dissolved surface is solid.
+///
+/// The picture does not depend on the number of threads: each pixel is computed by itself, in one order.
 pub struct Renderer<'a> {
     scene: &'a Scene,
     bvh: Bvh,
@@ -121,9 +121,9 @@ impl<'a> Renderer<'a> {
                 })
             })
             .collect();
-        let bounds = scene.bounds().ok_or_else(|| {
-            Error::setting("the number of triangles", 0, "a scene has at least one triangle")
-        })?;
+        let bounds = scene
+            .bounds()
+            .ok_or_else(|| Error::setting("the number of triangles", 0, "a scene has at least one triangle"))?;
         let corners: Vec<[Vec3; 3]> = triangles.iter().map(|triangle| triangle.corners).collect();
         let dissolved = scene.materials.iter().any(|material| material.dissolve < 1.0);
         Ok(Self { scene, bvh: Bvh::new(&corners), triangles, bounds, dissolved })
@@ -141,7 +141,8 @@ impl<'a> Renderer<'a> {
         let aspect = settings.width as f32 / settings.height as f32;
         let camera = view.camera_for(self.bounds.0, self.bounds.1, aspect);
         let rays = camera.rays(settings.width, settings.height)?;
-        let pass = Pass { renderer: self, lights: Lights::new(&view.lights_for(&camera))?, background: view.background };
+        let pass =
+            Pass { renderer: self, lights: Lights::new(&view.lights_for(&camera))?, background: view.background };
         let samples = sample_points(settings.samples);
         let weight = 1.0 / settings.samples as f32;
         let rows_done = AtomicU64::new(0);
@@ -176,9 +177,12 @@ impl Lights {
     fn new(lights: &[Light]) -> Result<Self, Error> {
         let colour = |colour: Rgb| match <[f32; 3]>::from(colour).iter().all(|part| part.is_finite() && *part >= 0.0) {
             true => Ok(colour),
-            false => Err(Error::setting("the colour of a light", format!("{colour:?}"), "it is finite and not negative")),
+            false => {
+                Err(Error::setting("the colour of a light", format!("{colour:?}"), "it is finite and not negative"))
+            }
         };
-        let mut sorted = Self { ambient: AmbientLight::new(Rgb::splat(0.0)), points: Vec::new(), directional: Vec::new() };
+        let mut sorted =
+            Self { ambient: AmbientLight::new(Rgb::splat(0.0)), points: Vec::new(), directional: Vec::new() };
         for light in lights {
             match *light {
                 Light::Point { position, intensity, radius } => {
@@ -252,8 +256,7 @@ impl<'a> Point<'a> {
         let size = a.abs().max(b.abs()).max(c.abs()).max_element();
         let offset = face * (units * f32::EPSILON * size);
 
-        let mut normal: Vec3 =
-            interpolate_normal(triangle.normals.map(Into::into), hit.weights, face.into()).into();
+        let mut normal: Vec3 = interpolate_normal(triangle.normals.map(Into::into), hit.weights, face.into()).into();
         if normal.dot(face) < 0.0 {
             normal = -normal;
         }
@@ -275,14 +278,13 @@ impl<'a> Point<'a> {
 
     /// Where shadow rays start: on the curved surface that the normals at the corners mean.
     fn shadow_start(&self) -> Vec3 {
-        let corners = self.triangle.corners;
+        let ShadingTriangle { corners, normals, .. } = self.triangle;
         let mut lift = Vec3::ZERO;
-        for corner in 0..3 {
-            let normal = self.triangle.normals[corner];
-            let normal = if normal.dot(self.face) < 0.0 { -normal } else { normal };
+        for ((corner, normal), weight) in corners.iter().zip(normals).zip(self.weights) {
+            let normal = if normal.dot(self.face) < 0.0 { -*normal } else { *normal };
             // The distance of the point below the tangent plane of the corner.
-            let below = (self.position - corners[corner]).dot(normal).min(0.0);
-            lift -= normal * (below * self.weights[corner]);
+            let below = (self.position - corner).dot(normal).min(0.0);
+            lift -= normal * (below * weight);
         }
         self.outside + lift
     }
@@ -391,19 +393,29 @@ impl Pass<'_> {
         sum
     }
 
-    /// The part of the light that arrives: the product of `1 − d` over all surfaces on the way.
+    /// The part of the light that arrives: the product of `1 − d` over the surfaces on the way.
     fn visible(&self, start: Vec3, to_light: Vec3, distance: f32) -> f32 {
+        /// Light that has passed so many surfaces is taken as lost.
+        const MOST_SURFACES: u32 = 256;
         let renderer = self.renderer;
-        let (start, to_light) = (Vec3A::from(start), Vec3A::from(to_light));
         if !renderer.dissolved {
-            return f32::from(u8::from(renderer.bvh.is_free(start, to_light, distance)));
+            return f32::from(u8::from(renderer.bvh.is_free(start.into(), to_light.into(), distance)));
         }
-        let mut visible = 1.0;
-        renderer.bvh.for_each(start, to_light, distance, |triangle| {
-            let material = renderer.triangles[triangle as usize].material;
-            visible *= 1.0 - renderer.scene.materials[material as usize].dissolve;
-        });
-        visible
+        // From surface to surface, as the view does, so that a ray through a shared edge counts one triangle.
+        let (mut start, mut distance, mut visible) = (start, distance, 1.0);
+        for _ in 0..MOST_SURFACES {
+            let Some(hit) = renderer.bvh.nearest(start.into(), to_light.into(), distance) else {
+                return visible;
+            };
+            let triangle = &renderer.triangles[hit.triangle as usize];
+            visible *= 1.0 - renderer.scene.materials[triangle.material as usize].dissolve;
+            if visible <= 0.0 {
+                return 0.0;
+            }
+            start = Point::new(triangle, &hit, to_light).inside;
+            distance -= hit.t;
+        }
+        0.0
     }
 }
 
@@ -415,4 +427,62 @@ fn reflected<B: Brdf<f32> + ?Sized>(point: &Point<'_>, lobes: &B, v: lobe::Vec3,
 /// Exactly nothing. NaN is something.
 fn is_black(colour: Rgb) -> bool {
     colour == Rgb::splat(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::procedural::sphere;
+
+    /// The share of points on a sphere whose shadow ray to a lamp, straight away from the surface, meets something.
+    fn shadowed(units: f32) -> f32 {
+        let center = Vec3::new(10.0, 20.0, 30.0);
+        let (points, faces) = sphere(center, 1.0, 64);
+        let corners: Vec<[Vec3; 3]> = faces.iter().map(|face| face.map(|at| points[at as usize])).collect();
+        let bvh = Bvh::new(&corners);
+        let mut wrong = 0;
+        for (at, &corners) in corners.iter().enumerate() {
+            let face = area_vector(corners).normalize_or_zero().as_vec3();
+            let triangle = ShadingTriangle { corners, normals: [face; 3], face, material: 0 };
+            let hit = Hit { triangle: at as u32, t: 1.0, weights: [0.2, 0.3, 0.5] };
+            let point = Point::with_offset(&triangle, &hit, -face, units);
+            wrong += usize::from(!bvh.is_free(point.outside.into(), face.into(), f32::INFINITY));
+        }
+        wrong as f32 / corners.len() as f32
+    }
+
+    #[test]
+    fn without_an_offset_a_surface_shadows_itself() {
+        assert!(shadowed(0.0) > 0.2, "{}", shadowed(0.0));
+        // A quarter of the offset is enough here: the rest is margin.
+        assert_eq!(shadowed(OFFSET_UNITS / 4.0), 0.0);
+        assert_eq!(shadowed(OFFSET_UNITS), 0.0);
+    }
+
+    #[test]
+    fn one_sample_is_the_middle_and_many_are_centred() {
+        assert_eq!(sample_points(1), [[0.5, 0.5]]);
+        for count in [2, 3, 16, 100] {
+            let points = sample_points(count);
+            for axis in 0..2 {
+                let mean = points.iter().map(|point| point[axis]).sum::<f32>() / count as f32;
+                assert!((mean - 0.5).abs() < 1e-5);
+                assert!(points.iter().all(|point| (0.0..=1.0).contains(&point[axis])));
+            }
+        }
+    }
+
+    #[test]
+    fn a_normal_that_faces_away_is_bent_to_the_viewer() {
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let away = Vec3::new(0.8, 0.0, 0.6);
+        let triangle = ShadingTriangle { corners, normals: [away; 3], face: Vec3::Z, material: 0 };
+        let hit = Hit { triangle: 0, t: 1.0, weights: [0.4, 0.3, 0.3] };
+        // The viewer is low on the other side: 0.8·(−0.98) + 0.6·0.2 < 0.
+        let v = Vec3::new(-0.98, 0.0, 0.2).normalize();
+        let point = Point::new(&triangle, &hit, -v);
+        let normal = Vec3::from(point.frame.normal);
+        assert!((normal.dot(v) - LEAST_COSINE).abs() < 1e-5, "{normal}");
+        assert!(normal.dot(away) > 0.7 && (normal.length() - 1.0).abs() < 1e-6);
+    }
 }
