@@ -37,6 +37,12 @@ Exit codes:
 /// The verbs.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Render, plot and check a scene, and write it all into one page (the default verb)
+    #[command(after_help = REPORT_HELP)]
+    Report(ReportArgs),
+    /// Render a view of a scene
+    #[command(after_help = RENDER_HELP)]
+    Render(RenderArgs),
     /// Evaluate a BRDF for pairs of directions: CSV in, CSV out
     #[command(after_help = EVAL_HELP)]
     Eval(EvalArgs),
@@ -52,6 +58,86 @@ pub(crate) enum Command {
         /// The shell
         shell: clap_complete::Shell,
     },
+}
+
+/// `lobe report`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct ReportArgs {
+    /// The scene, .json or .obj; the built-in one without it
+    pub(crate) scene: Option<PathBuf>,
+    /// The folder to write index.html and report.json into; made if it is not there
+    #[arg(long, short, default_value = "lobe-report")]
+    pub(crate) output: PathBuf,
+    /// How Ks and Ns of the materials become a highlight: blinn-torrance, phong, normalized-phong or
+    /// normalized-blinn-phong; as the scene says without it
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) shading: Option<String>,
+    /// Rays for each pixel, 1 to 4096
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(crate) samples: u32,
+    /// Pixels in a row of the main picture, 64 to 4096; the others have two thirds of it
+    #[arg(long, default_value_t = 960, value_parser = clap::value_parser!(u32).range(64..=4096))]
+    pub(crate) width: u32,
+}
+
+impl Default for ReportArgs {
+    /// What `lobe` does without a verb; the values that clap fills in.
+    fn default() -> Self {
+        Self { scene: None, output: PathBuf::from("lobe-report"), shading: None, samples: 4, width: 960 }
+    }
+}
+
+const REPORT_HELP: &str = "\
+Writes DIR/index.html, one page that needs no other file, and DIR/report.json with the same facts.
+
+Examples:
+  lobe report
+  lobe report scene.json -o out
+  lobe report model.obj --shading normalized-blinn-phong --json > facts.json";
+
+/// `lobe render`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct RenderArgs {
+    /// The scene, .json or .obj; the built-in one without it
+    pub(crate) scene: Option<PathBuf>,
+    /// The picture to write: .png (sRGB), .exr or .pfm (linear)
+    #[arg(long, short)]
+    pub(crate) output: PathBuf,
+    /// The view, by name; the first one without it
+    #[arg(long)]
+    pub(crate) view: Option<String>,
+    /// Pixels in a row
+    #[arg(long, default_value_t = 1280, value_parser = clap::value_parser!(u32).range(1..=32768))]
+    pub(crate) width: u32,
+    /// Rows
+    #[arg(long, default_value_t = 720, value_parser = clap::value_parser!(u32).range(1..=32768))]
+    pub(crate) height: u32,
+    /// Rays for each pixel, 1 to 4096
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(crate) samples: u32,
+    /// Stops to add to the exposure of the view (.png only)
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_stops)]
+    pub(crate) exposure: f32,
+    /// 16 bits a channel (.png only)
+    #[arg(long)]
+    pub(crate) deep: bool,
+    /// How Ks and Ns of the materials become a highlight: blinn-torrance, phong, normalized-phong or
+    /// normalized-blinn-phong; as the scene says without it
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) shading: Option<String>,
+}
+
+const RENDER_HELP: &str = "\
+Examples:
+  lobe render scene.json -o out.png
+  lobe render scene.json --view top --samples 16 -o top.exr
+  lobe render model.obj --shading normalized-phong -o model.png";
+
+fn parse_stops(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(stops) if stops.abs() <= 100.0 => Ok(stops),
+        _ => Err("a number of stops from -100 to 100, such as 1.5".to_owned()),
+    }
 }
 
 /// `lobe eval`.

@@ -40,6 +40,22 @@ impl Failure {
     }
 }
 
+impl From<lobe_scene::Error> for Failure {
+    fn from(error: lobe_scene::Error) -> Self {
+        match &error {
+            lobe_scene::Error::Write { path, source } => {
+                Self::write(path, source, "name a file in a folder that exists and can be written to")
+            }
+            lobe_scene::Error::Encode { .. } => Self::Write(error.to_string()),
+            lobe_scene::Error::Read { path, source } => {
+                let right = "give a file that is there and can be read";
+                Self::Input(format!("{}: cannot read this file: {}; {right}", path.display(), reason(source)))
+            }
+            _ => Self::Input(error.to_string()),
+        }
+    }
+}
+
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (Self::Check(text) | Self::Usage(text) | Self::Input(text) | Self::Write(text)) = self;

@@ -9,13 +9,15 @@ pub mod eval;
 mod output;
 mod plot;
 mod progress;
+mod render;
+mod report;
 pub mod spec;
 mod sweep;
 
 use args::{Args, Command};
 use clap::{CommandFactory as _, Parser as _};
 use error::Failure;
-use std::io::{IsTerminal as _, Write as _};
+use std::io::Write as _;
 use std::process::ExitCode;
 
 /// Reads the command line, does what it says, and answers with an exit code that means something.
@@ -34,13 +36,14 @@ pub fn main() -> ExitCode {
 }
 
 fn run(args: &Args) -> Result<(), Failure> {
-    let quiet = args.quiet || !std::io::stderr().is_terminal();
     match &args.command {
         Some(Command::Eval(eval)) => eval::run(eval, args.json),
         Some(Command::Plot(plot)) => plot::run(plot, args.quiet, args.json),
-        Some(Command::Sweep(sweep)) => sweep::run(sweep, quiet, args.json),
+        Some(Command::Sweep(sweep)) => sweep::run(sweep, args.quiet, args.json),
         Some(Command::Completions { shell }) => completions(*shell),
-        None => Ok(()),
+        Some(Command::Render(render)) => render::run(render, args.quiet, args.json),
+        Some(Command::Report(report)) => report::run(report, args.quiet, args.json),
+        None => report::run(&args::ReportArgs::default(), args.quiet, args.json),
     }
 }
 

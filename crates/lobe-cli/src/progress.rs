@@ -33,7 +33,6 @@ impl Progress {
     }
 
     /// `steps` are done in all.
-    #[allow(dead_code, reason = "for the ray caster, which counts in all")]
     pub(crate) fn set(&self, steps: u64) {
         self.advance(steps.saturating_sub(self.bar.position()));
     }
