@@ -295,7 +295,7 @@ fn description() -> String {
     {{"name": "materials",
      "camera": {{"eye": [0, 4, 8], "target": [0, 2.6, -0.7], "fov_y_degrees": 23}}}},
     {{"name": "smooth-flat",
-     "camera": {{"eye": [0, 4.6, 11.9], "target": [0, 3, -1.1], "fov_y_degrees": 29}}}}
+     "camera": {{"eye": [0, 4.6, 12.1], "target": [0, 3.3, -1.1], "fov_y_degrees": 29}}}}
   ]
 }}
 "#

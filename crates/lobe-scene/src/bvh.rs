@@ -1,6 +1,8 @@
 //! Which triangle does a ray hit first?
 //!
-//! The tree is built and walked by `obvhs`; the triangle test is here, because shared edges must not leak: a ray that
+//! The tree is built and walked by `obvhs`: its binary tree, which for 109,000 triangles at 1280×720 took half the
+//! time of its eight-way compressed one (0.5 against 1.0 s, two cores, SSE2), and has no limit of depth. The stack is
+//! sized by the depth of the finished tree. The triangle test is here, because shared edges must not leak: a ray that
 //! meets the edge between two triangles hits at least one of them. The test takes the signs of three volumes, one for
 //! each edge, and a shared edge gives both neighbours the same volume with exactly the opposite sign (the test of
 //! Embree's robust mode, after Plücker coordinates). Where a sign is in doubt it is computed again in `f64`.

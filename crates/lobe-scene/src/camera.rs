@@ -3,10 +3,14 @@
 use crate::Error;
 use glam::Vec3;
 
+/// The largest coordinate of a camera. Well beyond [`MAX_COORDINATE`](crate::MAX_COORDINATE), so that the largest
+/// scene can be seen from outside; its square is still far inside the range of `f32`.
+const FARTHEST: f32 = 1e12;
+
 /// Where the picture is taken from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// Where the camera is.
+    /// Where the camera is. Its coordinates and those of the target are at most 1e12 in size.
     pub eye: Vec3,
     /// The point in the middle of the picture.
     pub target: Vec3,
@@ -37,12 +41,14 @@ impl Camera {
     /// # Errors
     /// [`Error::Setting`] when the camera has no direction, or an angle that is none.
     pub(crate) fn rays(&self, width: u32, height: u32) -> Result<Rays, Error> {
-        let forward = (self.target.as_dvec3() - self.eye.as_dvec3())
-            .try_normalize()
-            .filter(|_| self.eye.is_finite() && self.target.is_finite())
-            .ok_or_else(|| {
-                Error::setting("the target of the camera", self.target, "it is a point apart from the eye")
-            })?;
+        for (what, point) in [("the eye of the camera", self.eye), ("the target of the camera", self.target)] {
+            if !point.abs().cmple(Vec3::splat(FARTHEST)).all() {
+                return Err(Error::setting(what, point, "its coordinates are finite and at most 1e12 in size"));
+            }
+        }
+        let forward = (self.target.as_dvec3() - self.eye.as_dvec3()).try_normalize().ok_or_else(|| {
+            Error::setting("the target of the camera", self.target, "it is a point apart from the eye")
+        })?;
         let right = forward
             .cross(self.up.as_dvec3().normalize_or_zero())
             .try_normalize()
@@ -128,6 +134,7 @@ mod tests {
             Camera { target: Vec3::ZERO, ..good },
             Camera { target: Vec3::splat(f32::NAN), ..good },
             Camera { eye: Vec3::splat(f32::INFINITY), ..good },
+            Camera { eye: Vec3::splat(1e13), ..good },
             Camera { up: Vec3::X, ..good },
             Camera { up: Vec3::ZERO, ..good },
             Camera { fov_y_degrees: 0.0, ..good },

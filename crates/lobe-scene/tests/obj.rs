@@ -275,6 +275,23 @@ proptest! {
     }
 
     #[test]
+    fn any_description_is_handled(text: String, eye in prop::array::uniform3(prop_oneof![any::<f32>(), -9.0_f32..9.0]), fov in prop_oneof![any::<f32>(), 0.0_f32..200.0]) {
+        let options = lobe_scene::LoadOptions::default();
+        let mut loader = |_: &str| Ok(format!("{POINTS}f 1 2 3").into_bytes());
+        let _ = lobe_scene::parse_description(&text, "a.json", &mut loader, &options);
+        let [x, y, z] = eye;
+        let camera = format!(
+            r#"{{"obj": "a.obj", "camera": {{"eye": [{x:e}, {y:e}, {z:e}], "target": [0, 0, 0], "fov_y_degrees": {fov:e}}}}}"#
+        );
+        if let Ok(scene) = lobe_scene::parse_description(&camera, "a.json", &mut loader, &options) {
+            // A camera that is accepted can take a picture.
+            let settings = lobe_scene::Settings { width: 3, height: 2, ..lobe_scene::Settings::default() };
+            let renderer = lobe_scene::Renderer::new(&scene)?;
+            prop_assert!(renderer.render(&scene.views[0], &settings, None).is_ok());
+        }
+    }
+
+    #[test]
     fn any_lines_are_handled(lines in prop::collection::vec(line(), 0..40), library in prop::collection::vec(line(), 0..20)) {
         let text = format!("{POINTS}{}", lines.join("\n"));
         let library = format!("newmtl a\n{}", library.join("\n"));

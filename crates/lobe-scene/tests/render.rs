@@ -304,6 +304,24 @@ fn values_outside_their_domain_are_errors() -> Result<(), Error> {
     Ok(())
 }
 
+/// A model alone is framed and lit: white in the middle has about the radiance 1, and the corners are background.
+#[test]
+fn a_model_without_a_view_is_framed_and_lit() -> Result<(), Error> {
+    for size in [1e-3, 1.0, 1e5] {
+        let (points, faces) = sphere(Vec3::new(3.0, 2.0, 1.0) * size, size, 32);
+        let scene = Scene {
+            meshes: vec![Mesh::smooth(points, &faces, 0, 60.0)?],
+            materials: vec![diffuse(1.0)],
+            ..Scene::default()
+        };
+        let image = Renderer::new(&scene)?.render(&View::default(), &small(), None)?;
+        let middle = image.pixel(32, 24).map_or(0.0, |pixel| pixel[0]);
+        assert!((0.5..1.5).contains(&middle), "{size}: {middle}");
+        assert_eq!(image.pixel(0, 0), Some([0.05; 3]));
+    }
+    Ok(())
+}
+
 /// Nothing that a scene may hold makes the renderer stop.
 #[test]
 fn odd_scenes_are_drawn() -> Result<(), Error> {

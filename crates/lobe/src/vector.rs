@@ -101,24 +101,24 @@ impl<R: Real> Vec3<R> {
         // Of the components alone, not of their sum, which may overflow. A NaN may get lost here, not in the product.
         let largest = self.x.abs().max(self.y.abs()).max(self.z.abs());
         let one = largest.lift(1.0);
-        // 2^±96 brings [2^-149, 2^-32] into [2^-53, 2^64] and [2^32, 2^128] into [2^-64, 2^32].
-        let up = R::select(largest.lt(largest.lift(TWO_POW_MINUS_32)), largest.lift(TWO_POW_96), one);
-        let scale = R::select(largest.gt(largest.lift(TWO_POW_32)), largest.lift(TWO_POW_MINUS_96), up);
+        // Brings [2^-149, 2^-32] into [2^-59, 2^58] and [2^32, 2^128] into [2^-34, 2^62]: squares of either are in range.
+        let up = R::select(largest.lt(largest.lift(TWO_POW_MINUS_32)), largest.lift(TWO_POW_90), one);
+        let scale = R::select(largest.gt(largest.lift(TWO_POW_32)), largest.lift(TWO_POW_MINUS_66), up);
         (self * scale, scale)
     }
 }
 
 const TWO_POW_32: f64 = 4294967296.0;
 const TWO_POW_MINUS_32: f64 = 1.0 / TWO_POW_32;
-const TWO_POW_96: f64 = TWO_POW_32 * TWO_POW_32 * TWO_POW_32;
-const TWO_POW_MINUS_96: f64 = 1.0 / TWO_POW_96;
+const TWO_POW_90: f64 = TWO_POW_32 * TWO_POW_32 * 67_108_864.0;
+const TWO_POW_MINUS_66: f64 = TWO_POW_MINUS_32 * TWO_POW_MINUS_32 * 0.25;
 
 /// The direction in which a ray that arrives along `incident` leaves a mirror: `incident − 2 (incident·n) n`.
 ///
 /// The convention of GLSL, `glam` and the lecture: `incident` points *towards* the surface. `n` is of unit length;
 /// `incident` may have any, and keeps it. See [`mirror`] for directions that point away.
 ///
-/// Applying it twice gives the input back, up to rounding: `|reflect(reflect(d, n), n) − d| ≤ 8u |d|`,
+/// Applying it twice gives the input back, up to rounding: `|reflect(reflect(d, n), n) − d| ≤ 16u |d|`,
 /// with `u = 2⁻²⁴` in `f32`, plus `4|d|·||n|² − 1|` for a normal that is not quite of unit length.
 ///
 /// ```
@@ -166,6 +166,8 @@ pub fn halfway<R: Real>(l: Vec3<R>, v: Vec3<R>) -> Vec3<R> {
     let sum = l + v;
     let difference = l - v;
     let bisector = sum - difference * sum.dot(difference).times(0.25);
+    // Twice: where nearly all of the sum lay along the difference, the rounding of the first step is what is left.
+    let bisector = bisector - difference * bisector.dot(difference).times(0.25);
     // What is left of a sum that lay along the difference is rounding. Without this, (1 + u) d and −d would have
     // their "bisector" along d.
     let opposite = bisector.size().le(sum.size().times(1.0 / 1_048_576.0));

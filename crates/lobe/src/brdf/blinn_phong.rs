@@ -19,7 +19,7 @@ use core::marker::PhantomData;
 ///
 /// Reciprocal to the last bit. Domain: `ks ∈ [0, 1]`, `q ∈ [0, 10⁶]`.
 ///
-/// Error against `f64` of the same inputs, `u = 2⁻²⁴`, `L = |ln(f/f_max)|`: `|δf/f| ≤ u (18 + 14 L)`. It grows with
+/// Error against `f64` of the same inputs, `u = 2⁻²⁴`, `L = |ln(f/f_max)|`: `|δf/f| ≤ u (14 + 14 L)`. It grows with
 /// how far down the lobe the value is, and not with `q`. Derivation and test: `docs/numerics.md`.
 ///
 /// Values below 2⁻¹²⁶ of the peak are 0.
@@ -113,7 +113,7 @@ impl<R: Real, N: Normalization> BlinnPhong<R, N> {
 impl<R: Real, N: Normalization> Brdf<R> for BlinnPhong<R, N> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        above_horizon(l, v, self.peak * power::local_half_vector_power(l, v, self.q.0))
+        self.peak * above_horizon(l, v, power::local_half_vector_power(l, v, self.q.0))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Lambert: `f_r = ρ/π`.
 
-use super::{Brdf, above_horizon, nan_or_zero};
+use super::{Brdf, above_horizon};
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;
@@ -9,7 +9,7 @@ use core::f64::consts::FRAC_1_PI;
 /// A perfectly diffuse surface: `f_r = ρ/π` sr⁻¹ (Lambert, *Photometria*, 1760).
 ///
 /// Reflects the fraction `ρ` of what arrives, evenly in all directions. Domain: `ρ ∈ [0, 1]` per channel; the
-/// result is linear in `ρ` beyond. Within 1 ulp of `ρ/π`.
+/// result is linear in `ρ` beyond. Relative error at most 2·2⁻²⁴ in `f32`.
 ///
 /// ```
 /// use lobe::{Brdf, Lambert, Rgb, Vec3};
@@ -46,8 +46,6 @@ impl<R: Real> Lambert<R> {
 impl<R: Real> Brdf<R> for Lambert<R> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        // The value does not depend on the directions, except that a NaN in one of them must show.
-        let f = self.albedo * self.albedo.r.lift(FRAC_1_PI) + Rgb::splat(nan_or_zero(l, v));
-        above_horizon(l, v, f)
+        self.albedo * above_horizon(l, v, l.z.lift(FRAC_1_PI))
     }
 }

@@ -86,18 +86,14 @@ impl<R: Real, B: Brdf<R> + ?Sized> Brdf<R> for &B {
     }
 }
 
-/// `value` where both directions are above the horizon, 0 elsewhere, NaN where a direction holds one.
-#[inline(always)]
-pub(crate) fn above_horizon<R: Real>(l: Vec3<R>, v: Vec3<R>, value: Rgb<R>) -> Rgb<R> {
-    let below = l.z.le(l.z.lift(0.0)) | v.z.le(v.z.lift(0.0));
-    Rgb::select(below, Rgb::splat(nan_or_zero(l, v)), value)
-}
-
-/// 0, or NaN if a component of either direction is NaN or infinite.
+/// `factor` where both directions are above the horizon, 0 elsewhere, NaN where a direction holds one.
 ///
-/// A zero that is selected below the horizon would hide a NaN in the other components.
+/// A NaN must not be hidden, neither by the zero that is selected below the horizon nor by a factor that does not
+/// depend on the component that holds it. So the zero is made from all six components, and selected where it is NaN.
 #[inline(always)]
-pub(crate) fn nan_or_zero<R: Real>(l: Vec3<R>, v: Vec3<R>) -> R {
+pub(crate) fn above_horizon<R: Real>(l: Vec3<R>, v: Vec3<R>, factor: R) -> R {
     let sum = l + v;
-    (sum.x + sum.y + sum.z).times(0.0)
+    let zero_or_nan = (sum.x + sum.y + sum.z).times(0.0);
+    // The lower of the two against a zero that may be NaN: one comparison answers all three questions.
+    R::select(l.z.min(v.z).gt(zero_or_nan), factor, zero_or_nan)
 }

@@ -18,7 +18,7 @@ use core::f64::consts::TAU;
 /// for `q < −2` the factor is negative.
 ///
 /// Error against `f64` of the same inputs, `u = 2⁻²⁴`, `L = |ln(f/f_max)|`, `c = r·v`:
-/// `|δf/f| ≤ u (13 + 14 q (1/c − 1) + 3 L)`. For `q ≥ L`, that is wherever a sharp lobe is visible,
+/// `|δf/f| ≤ u (7 + 6 L + 5 q (1/c − 1))` for `c ≥ 2⁻¹²`. For `q ≥ L`, that is wherever a sharp lobe is visible,
 /// `q (1/c − 1) ≤ 1.72 L`: the error grows with `L` alone, not with `q`. Derivation and test: `docs/numerics.md`.
 ///
 /// Values below 2⁻¹²⁶ of the peak are 0.
@@ -66,6 +66,6 @@ impl<R: Real> Phong<R> {
 impl<R: Real> Brdf<R> for Phong<R> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        above_horizon(l, v, self.peak * power::local_mirror_power(l, v, self.q.0))
+        self.peak * above_horizon(l, v, power::local_mirror_power(l, v, self.q.0))
     }
 }

@@ -46,7 +46,7 @@ pub struct Black;
 impl<R: Real> Brdf<R> for Black {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        Rgb::splat(super::nan_or_zero(l, v))
+        Rgb::splat(super::above_horizon(l, v, l.z.lift(0.0)))
     }
     #[inline(always)]
     fn add_to(&self, sum: Rgb<R>, _: Vec3<R>, _: Vec3<R>) -> Rgb<R> {

@@ -1,5 +1,7 @@
 //! Elementary functions for 32-bit floats, made only of operations that IEEE 754 rounds exactly, without fusing.
 //!
+//! Users call them as methods of [`Real`]; they are public for whoever implements `Real` for lanes of their own.
+//!
 //! They are generic over [`Binary32`], so that lanes run the same operations in the same order as the scalar and give
 //! the same bits. No table, no branch, no integer beyond the three bit operations of that trait. The polynomials come
 //! from `tools/minimax.py`, which prints them with their bounds; `lobe sweep` tries all 2³² arguments.
@@ -10,10 +12,14 @@ use super::Real;
 ///
 /// The three methods work on the bits. They are stated in floating-point terms, so that integers never show.
 pub trait Binary32: Real {
-    /// `self · 2ⁿ`, for `shifter = 1.5·2²³ + n` with integer `n` (see [`round_shifter`]), where `self` and the result
-    /// are normal numbers. Adds `n` to the exponent field.
+    /// `self · 2ⁿ`, for `shifter = 1.5·2²³ + n` with integer `n`, where `self` and the result are normal numbers. Adds
+    /// the low bits of `shifter`, which hold `n`, to the exponent field.
     fn add_exponent(self, shifter: Self) -> Self;
-    /// The integer `k` with `self / (other · 2ᵏ)` in [2/3, 3/2], for two positive normal numbers.
+    /// `1.5·2²³ + k`, with the integer `k` for which `self / (other · 2ᵏ)` is in [2/3, 3/2], for two positive normal
+    /// numbers.
+    ///
+    /// In this form, because `k` then stands in the low bits and no conversion from an integer is needed: on x86 that
+    /// instruction waits for the register's last user, and chained the evaluations of a loop to each other.
     fn exponent_over(self, other: Self) -> Self;
     /// `self` with the lowest twelve bits of the significand cleared: two such numbers multiply exactly.
     fn high_part(self) -> Self;
@@ -35,7 +41,7 @@ fn round_shifter<F: Binary32>(x: F) -> F {
 
 /// `2^x`, within 1 ulp on [−126, 128); 0 below, infinite above.
 #[inline(always)]
-pub(super) fn exp2<F: Binary32>(x: F) -> F {
+pub fn exp2<F: Binary32>(x: F) -> F {
     exp2_of_sum(x, x.lift(0.0))
 }
 
@@ -118,7 +124,7 @@ fn log2_of_positive<F: Binary32>(x: F) -> (F, F) {
     let scaled = F::select(subnormal, x.times(TWO_POW_24), x);
     let correction = F::select(subnormal, x.lift(24.0), x.lift(0.0));
     let one = x.lift(1.0);
-    let k = scaled.exponent_over(one);
+    let k = scaled.exponent_over(one).plus(-SHIFT);
     let m = scaled.add_exponent((-k).plus(SHIFT));
     log2_parts(m, x.lift(0.0), k - correction)
 }
@@ -136,21 +142,21 @@ fn log2_special_cases<F: Real>(x: F, value: F) -> F {
 
 /// `log₂ x`, within 1 ulp.
 #[inline(always)]
-pub(super) fn log2<F: Binary32>(x: F) -> F {
+pub fn log2<F: Binary32>(x: F) -> F {
     let (hi, lo) = log2_of_positive(x);
     log2_special_cases(x, hi + lo)
 }
 
 /// `log₂(1 + x)`, within 1 ulp.
 #[inline(always)]
-pub(super) fn log2_1p<F: Binary32>(x: F) -> F {
+pub fn log2_1p<F: Binary32>(x: F) -> F {
     let (zero, one) = (x.lift(0.0), x.lift(1.0));
     // Beyond 2^64 the 1 is no longer felt, and the argument is brought down to where 2^k can be formed.
     let large = x.gt(x.lift(TWO_POW_64));
     let x_scaled = F::select(large, x.times(1.0 / TWO_POW_64), x);
     let correction = F::select(large, x.lift(64.0), zero);
     let (u, c) = two_sum(x_scaled, F::select(large, zero, one));
-    let k = u.exponent_over(one);
+    let k = u.exponent_over(one).plus(-SHIFT);
     let down = (-k).plus(SHIFT);
     let (hi, lo) = log2_parts(u.add_exponent(down), c * one.add_exponent(down), k + correction);
     // Near zero the argument is all there is: in log2_parts m = 1 and c = x, and the two parts lose nothing but the
@@ -168,10 +174,11 @@ const TWO_POW_MINUS_30: f64 = 1.0 / 1_073_741_824.0;
 /// With `u = a + b` and `2ᵏ` so that `u/(b 2ᵏ)` is near 1, `s = (u − b 2ᵏ)/(u + b 2ᵏ)` and
 /// `log₂(1 + a/b) = k + 2/ln 2 · s + s³ Q(s²)`. The difference is exact, and for `k = 0` it is `a` itself.
 #[inline(always)]
-pub(super) fn log2_1p_div<F: Binary32>(a: F, b: F) -> F {
+pub fn log2_1p_div<F: Binary32>(a: F, b: F) -> F {
     let (u, c) = two_sum(a, b);
-    let k = u.exponent_over(b);
-    let b_scaled = b.add_exponent(k.plus(SHIFT));
+    let shifter = u.exponent_over(b);
+    let k = shifter.plus(-SHIFT);
+    let b_scaled = b.add_exponent(shifter);
     let s = ((u - b_scaled) + c) / (u + b_scaled);
     let z = s * s;
     let p = z.lift(LOG2_Q2);
@@ -188,7 +195,7 @@ const LOG2_Q2: f64 = 0.438044935465;
 
 /// `x^y`, within 2 ulp, for `x ≥ 0`.
 #[inline(always)]
-pub(super) fn pow<F: Binary32>(x: F, y: F) -> F {
+pub fn pow<F: Binary32>(x: F, y: F) -> F {
     let (zero, one) = (x.lift(0.0), x.lift(1.0));
     let infinity = x.lift(f64::INFINITY);
     // Beyond 2^40 any base but 1 has left the range, and the split below would overflow.
@@ -211,7 +218,7 @@ const TWO_POW_40: f64 = 1_099_511_627_776.0;
 
 /// `(sin x, cos x)`, each within 1 ulp for `|x| ≤ 512`; NaN beyond.
 #[inline(always)]
-pub(super) fn sin_cos<F: Binary32>(x: F) -> (F, F) {
+pub fn sin_cos<F: Binary32>(x: F) -> (F, F) {
     // x = k π/2 + r + r_lo. The first three parts of π/2 have 15 bits, k has 9: their products are exact (Cody and
     // Waite). What the subtractions round off is kept in r_lo, since near a multiple of π/2 it is all there is.
     let k = round_shifter(x.times(core::f64::consts::FRAC_2_PI)).plus(-SHIFT);
@@ -227,7 +234,8 @@ pub(super) fn sin_cos<F: Binary32>(x: F) -> (F, F) {
     let p = (p * z).plus(-0.000198530644411);
     let p = (p * z).plus(0.00833337940276);
     let p = (p * z).plus(-0.166666671634);
-    let sin = r + (p * z * r + r_lo);
+    // The sign is that of r; said again for −0, which the additions turn into 0.
+    let sin = (r + (p * z * r + r_lo)).copysign(r);
     // cos(r + r_lo) = 1 − r²/2 + (r⁴ C(r²) − r r_lo), and what 1 − r²/2 rounds off.
     let p = z.lift(2.44323273364e-5);
     let p = (p * z).plus(-0.00138873094693);

@@ -10,7 +10,7 @@
 //! one method that is left out of line costs more than the formula it stands in.
 
 mod double;
-mod elementary;
+pub mod elementary;
 mod single;
 
 pub use elementary::Binary32;

@@ -75,7 +75,9 @@ impl Binary32 for f32 {
     fn exponent_over(self, other: Self) -> Self {
         // The difference of the bits is that of the base-2 logarithms, to within 0.09; half an exponent rounds it.
         let half = 1 << 22;
-        ((self.to_bits().wrapping_sub(other.to_bits()).wrapping_add(half) as i32) >> 23) as f32
+        let k = (self.to_bits().wrapping_sub(other.to_bits()).wrapping_add(half) as i32) >> 23;
+        // The bits of 1.5·2²³; an integer added to them is added to the number.
+        f32::from_bits(k.wrapping_add(0x4b40_0000) as u32)
     }
     #[inline(always)]
     fn high_part(self) -> Self {
