@@ -556,11 +556,11 @@ mod tests {
         );
         assert_eq!(
             message(r#"{"lobes": [{"model": "phong", "ks": 0.5}]}"#),
-            "x.json:1:40: lobes[0]: model `phong` lacks its parameter `q`; it takes `ks`, `q`"
+            "x.json:1:41: lobes[0]: model `phong` lacks its parameter `q`; it takes `ks`, `q`"
         );
         assert_eq!(
             message(r#"{"lobes": [{"model": "lambert", "albedo": 0.5, "q": 2}]}"#),
-            "x.json:1:54: lobes[0]: model `lambert` has no parameter `q`; it takes `albedo`"
+            "x.json:1:55: lobes[0]: model `lambert` has no parameter `q`; it takes `albedo`"
         );
         assert!(message(r#"{"lobes": [{"model": "lambert", "albedo": NaN}]}"#).starts_with("x.json:1:43: "));
         assert!(message(r#"{"lobes": [{"model": "lambert", "albdo": 1}]}"#).contains("unknown field `albdo`"));

@@ -189,7 +189,7 @@ fn outlines(svg: &mut Svg, centre: Point, shapes: &[Shape], incidence: f64) {
         svg.path(line_class(index), &points, true);
     }
     svg.dot("tip", centre, 2.5);
-    let above = "half-maximum outline around *r*, across (→) and in (↑) the plane of incidence";
+    let above = "half-maximum outline around *r*: across (→), in the plane (↑)";
     svg.math("soft", (centre.0, centre.1 - half_height - 10.0), Anchor::Middle, above);
 }
 

@@ -6,7 +6,7 @@ use super::{Series, Setting, peak, profile, short_name};
 const WIDTH: f64 = 600.0;
 const LEFT: f64 = 66.0;
 const RIGHT: f64 = 584.0;
-const TOP: f64 = 24.0;
+const TOP: f64 = 30.0;
 const BOTTOM: f64 = 306.0;
 /// More decades than this are not worth their ink.
 const DECADES: f64 = 8.0;
@@ -53,7 +53,7 @@ pub(crate) fn curve(series: &[Series<'_>], setting: Setting) -> Svg {
         svg.math("", (at, TOP - 7.0), Anchor::Middle, text);
     }
     svg.path("axis", &[(LEFT, TOP), (LEFT, BOTTOM), (RIGHT, BOTTOM)], false);
-    svg.math("soft", (LEFT - 56.0, TOP - 8.0), Anchor::Start, setting.quantity());
+    svg.math("soft", (LEFT - 60.0, TOP - 14.0), Anchor::Start, setting.quantity());
     let below = "viewing angle *θ* in the plane of incidence";
     svg.math("soft", ((LEFT + RIGHT) / 2.0, BOTTOM + 35.0), Anchor::Middle, below);
 
@@ -66,7 +66,7 @@ pub(crate) fn curve(series: &[Series<'_>], setting: Setting) -> Svg {
         }
         let row = BOTTOM + 60.0 + 22.0 * index as f64;
         svg.line(&class, (40.0, row - 5.0), (76.0, row - 5.0));
-        svg.text("", (86.0, row), Anchor::Start, &short_name(&one.name, 68));
+        svg.text("", (86.0, row), Anchor::Start, &short_name(&one.name, 60));
     }
     svg
 }

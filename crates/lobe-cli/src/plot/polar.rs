@@ -55,7 +55,7 @@ pub(crate) fn polar(series: &[Series<'_>], setting: Setting) -> Svg {
         let y = CENTRE.1 + 52.0 + 22.0 * index as f64;
         svg.line(&format!("c{}", index % super::svg::SERIES), (40.0, y - 5.0), (76.0, y - 5.0));
         let peak = label(peak(std::slice::from_ref(curve)));
-        svg.text("", (86.0, y), Anchor::Start, &format!("{}  (peak {peak})", short_name(&one.name, 58)));
+        svg.text("", (86.0, y), Anchor::Start, &format!("{}  (peak {peak})", short_name(&one.name, 50)));
     }
     svg
 }

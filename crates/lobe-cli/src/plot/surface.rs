@@ -48,7 +48,9 @@ impl View {
         match shape {
             Shape::Patch { corners, .. } => corners.iter().map(|c| c.dot(self.towards)).sum::<f64>() / 4.0,
             // A line on the surface is in front of it.
-            Shape::Segment { from, to, .. } | Shape::Head { tip: from, back: to } => (*from + *to).dot(self.towards) / 2.0 + 2e-3,
+            Shape::Segment { from, to, .. } | Shape::Head { tip: from, back: to } => {
+                (*from + *to).dot(self.towards) / 2.0 + 2e-3
+            }
         }
     }
 }
@@ -82,7 +84,7 @@ pub(crate) fn surface(series: &Series<'_>, setting: Setting) -> Svg {
     base(&mut svg, &view);
     paint(&mut svg, &view, &shapes);
     labels(&mut svg, &view, mirror);
-    svg.text("", (24.0, HEIGHT - 32.0), Anchor::Start, &short_name(&series.name, 72));
+    svg.text("", (24.0, HEIGHT - 32.0), Anchor::Start, &short_name(&series.name, 64));
     let peak = label(peak);
     let below = format!("{}; light at {}°; outer ring: {peak}", setting.quantity(), label(setting.incidence));
     svg.math("soft", (24.0, HEIGHT - 12.0), Anchor::Start, &below);

@@ -31,8 +31,8 @@ pub(crate) enum Anchor {
 pub(crate) const SERIES: usize = 6;
 
 const STYLE: &str = "\
-.lobe-plot{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;font-size:14px}\
-.lobe-plot text{fill:#222}.lobe-plot .soft{fill:#666;font-size:12px}.lobe-plot .head{font-weight:600}\
+.lobe-plot{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;font-size:15.5px}\
+.lobe-plot text{fill:#222}.lobe-plot .soft{fill:#666;font-size:13.5px}.lobe-plot .head{font-weight:600}\
 .lobe-plot .i{font-style:italic;font-family:Georgia,'Times New Roman',serif;font-size:107%}\
 .lobe-plot .sub{font-size:75%}\
 .lobe-plot .paper{fill:#fff}.lobe-plot .grid{fill:none;stroke:#dcdcdc;stroke-width:1}\
@@ -97,12 +97,14 @@ impl Svg {
     /// A rectangle.
     pub(crate) fn rectangle(&mut self, class: &str, (x, y): Point, width: f64, height: f64) {
         let (x, y, width, height) = (short(x), short(y), short(width), short(height));
-        let _ = writeln!(self.body, "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/>");
+        let _ =
+            writeln!(self.body, "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/>");
     }
 
     /// A small disc.
     pub(crate) fn dot(&mut self, class: &str, (x, y): Point, radius: f64) {
-        let _ = writeln!(self.body, "<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\"{radius}\"/>", short(x), short(y));
+        let _ =
+            writeln!(self.body, "<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\"{radius}\"/>", short(x), short(y));
     }
 
     /// An arrow of the class `ray`.
@@ -133,10 +135,8 @@ impl Svg {
             Anchor::End => "end",
         };
         let (x, y) = (short(x), short(y));
-        let _ = writeln!(
-            self.body,
-            "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{markup}</text>"
-        );
+        let _ =
+            writeln!(self.body, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{markup}</text>");
     }
 
     /// The file: with a background of its own, so that it can be read wherever it is opened.

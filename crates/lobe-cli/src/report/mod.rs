@@ -163,7 +163,7 @@ fn plots(scene: &Scene) -> Vec<Plot> {
         (
             85.0,
             "Towards grazing light the half-vector lobe becomes a narrow upright streak, as one sees on wet roads; the mirror \
-             lobe stays round, and half of it is below the surface. No exponent makes one into the other.",
+             lobe stays round, and nearly half of it is below the surface. No exponent makes one into the other.",
         ),
     ] {
         plots.push(Plot {
@@ -182,8 +182,9 @@ fn plots(scene: &Scene) -> Vec<Plot> {
         let setting = Setting { incidence: 55.0, cosine: false };
         plots.push(Plot {
             title: "The same two as BRDFs".to_owned(),
-            caption: "Normalised to reflect the same part of the light, the wider lobe is the lower one. Values in sr⁻¹."
-                .to_owned(),
+            caption:
+                "Normalised to reflect the same part of the light, the wider lobe is the lower one. Values in sr⁻¹."
+                    .to_owned(),
             svg: plot::polar(&series, setting),
         });
         plots.extend(scene_curves(scene));

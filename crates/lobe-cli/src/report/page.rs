@@ -40,7 +40,7 @@ pre{background:var(--card);border:1px solid var(--line);border-radius:8px;paddin
 .good{color:var(--good);background:var(--good-back)}.bad{color:var(--bad);background:var(--bad-back)}\
 .swatch{display:inline-block;width:.9em;height:.9em;border-radius:3px;border:1px solid var(--line);\
 vertical-align:-.1em;margin-right:6px}\
-.check{margin:26px 0}.check h3 .tag{margin-left:8px}\
+.check{margin:26px 0}.check td{white-space:nowrap}.check td.where{white-space:normal}.check h3 .tag{margin-left:8px}\
 dl{display:grid;grid-template-columns:max-content 1fr;gap:4px 22px;margin:12px 0}dt{color:var(--soft)}dd{margin:0}\
 footer{padding-top:34px;padding-bottom:48px;color:var(--soft);font-size:.9rem}\
 @media (max-width:600px){header,main,footer{padding-left:16px;padding-right:16px}h1{font-size:1.55rem}\
@@ -86,6 +86,7 @@ fn header(page: &mut String, facts: &Facts, title: &str) {
     let gaining = facts.materials.iter().filter(|material| material.gains_energy).count();
     let checks = match broken {
         0 => format!("{} All {} checks hold.", tag(true, "holds"), facts.checks.len()),
+        1 => format!("{} 1 of {} checks does not hold.", tag(false, "broken"), facts.checks.len()),
         _ => format!("{} {broken} of {} checks do not hold.", tag(false, "broken"), facts.checks.len()),
     };
     let energy = match gaining {

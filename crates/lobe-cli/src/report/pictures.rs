@@ -59,7 +59,8 @@ pub(crate) fn take(
 
     let mut warnings = Vec::new();
     if views.len() > MOST_VIEWS {
-        warnings.push(format!("the report shows {MOST_VIEWS} of {} views; `lobe render --view` draws any", views.len()));
+        warnings
+            .push(format!("the report shows {MOST_VIEWS} of {} views; `lobe render --view` draws any", views.len()));
     }
     // The largest is halved until all fit.
     while pictures.iter().map(|picture| picture.png.len()).sum::<usize>() > MOST_BYTES {
@@ -92,7 +93,9 @@ fn halved(image: &Image) -> Result<Image, Failure> {
 /// What is to be seen.
 fn caption(view: &View, built_in: bool) -> String {
     let known = match view.name.as_str() {
-        "overview" => "All of the built-in scene: materials at the back, the row of exponents and the row of lights in front.",
+        "overview" => {
+            "All of the built-in scene: materials at the back, the row of exponents and the row of lights in front."
+        }
         "exponent" => {
             "The same sphere with exponents q = 1, 4, 16, 64, 256 and 1024, from left to right. The highlight shrinks; its \
              coefficient, and so its brightness in the middle, stays: the lecture's highlight is not normalised."
