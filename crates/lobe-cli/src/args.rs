@@ -12,7 +12,7 @@ pub(crate) struct Args {
     /// What to do
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
-    /// No progress bars and no summary; errors and what was asked for on standard output stay
+    /// No progress bars, warnings or summary; errors, and what was asked for on standard output, stay
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
     /// Answer in JSON on standard output, for another program

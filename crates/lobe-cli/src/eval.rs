@@ -93,13 +93,15 @@ fn shorten(field: &str) -> String {
 }
 
 /// Runs the verb.
-pub(crate) fn run(args: &EvalArgs, json: bool) -> Result<(), Failure> {
+pub(crate) fn run(args: &EvalArgs, quiet: bool, json: bool) -> Result<(), Failure> {
     if args.list_presets {
         return list_presets(json);
     }
     let spec = spec::from_argument(&args.brdf)?;
-    for warning in spec.warnings() {
-        let _ = writeln!(std::io::stderr(), "warning: {warning}");
+    if !quiet {
+        for warning in spec.warnings() {
+            let _ = writeln!(std::io::stderr(), "warning: {warning}");
+        }
     }
     match args.number {
         Number::F32 => stream(&spec, 0.0_f32, args.normalize, json),

@@ -37,7 +37,7 @@ pub fn main() -> ExitCode {
 
 fn run(args: &Args) -> Result<(), Failure> {
     match &args.command {
-        Some(Command::Eval(eval)) => eval::run(eval, args.json),
+        Some(Command::Eval(eval)) => eval::run(eval, args.quiet, args.json),
         Some(Command::Plot(plot)) => plot::run(plot, args.quiet, args.json),
         Some(Command::Sweep(sweep)) => sweep::run(sweep, args.quiet, args.json),
         Some(Command::Completions { shell }) => completions(*shell),

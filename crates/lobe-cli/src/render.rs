@@ -4,7 +4,7 @@ use crate::args::RenderArgs;
 use crate::error::Failure;
 use crate::output;
 use crate::progress::Progress;
-use lobe_scene::image::{Depth, Display, check_ending};
+use lobe_scene::image::{Depth, Display, MAX_PIXELS, check_ending};
 use lobe_scene::{Image, LoadOptions, Renderer, Scene, Settings, ShadingModel, View, default_scene, load};
 use serde_json::json;
 use std::io::Write as _;
@@ -15,6 +15,13 @@ use std::time::Instant;
 pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Failure> {
     // What can be known to fail is known before the work.
     check_ending(&args.output).map_err(|error| Failure::Usage(error.to_string()))?;
+    let pixels = u64::from(args.width) * u64::from(args.height);
+    if pixels > MAX_PIXELS {
+        let size = format!("{}x{}", args.width, args.height);
+        return Err(Failure::Usage(format!(
+            "a picture of {size} has {pixels} pixels; at most {MAX_PIXELS} are possible"
+        )));
+    }
     let scene = open(args.scene.as_deref(), args.shading.as_deref())?;
     if !quiet {
         for warning in &scene.warnings {

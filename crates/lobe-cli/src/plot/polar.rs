@@ -63,7 +63,7 @@ pub(crate) fn polar(series: &[Series<'_>], setting: Setting) -> Svg {
 /// The normal, the light as it arrives, and the way a mirror would send it.
 fn directions(svg: &mut Svg, incidence: f64) {
     svg.line("thin", CENTRE, at(0.0, RADIUS + 2.0));
-    svg.math("", (CENTRE.0 + 5.0, CENTRE.1 - RADIUS - 22.0), Anchor::Start, "*n*");
+    svg.math("", (CENTRE.0 + 5.0, CENTRE.1 - RADIUS - 27.0), Anchor::Start, "*n*");
     svg.arrow(at(-incidence, RADIUS * 0.98), at(-incidence, RADIUS * 0.55));
     svg.line("ray", at(-incidence, RADIUS * 0.55), CENTRE);
     svg.line("thin", CENTRE, at(incidence, RADIUS * 0.86));

@@ -10,8 +10,8 @@ use lobe::Vec3;
 use std::f64::consts::{PI, TAU};
 
 const WIDTH: f64 = 600.0;
-const HEIGHT: f64 = 474.0;
-const CENTRE: Point = (300.0, 318.0);
+const HEIGHT: f64 = 448.0;
+const CENTRE: Point = (300.0, 290.0);
 const RADIUS: f64 = 236.0;
 /// Patches along and around the lobe.
 const RINGS: u32 = 44;
@@ -196,9 +196,13 @@ fn paint(svg: &mut Svg, view: &View, shapes: &[Shape]) {
 fn labels(svg: &mut Svg, view: &View, mirror: f64) {
     svg.dot("tip", CENTRE, 2.5);
     let (x, y) = view.point(direction(-mirror) * 1.17);
-    svg.math("", (x, y + 4.0), Anchor::End, "light *l*");
+    svg.math("", (x.max(56.0), y + 4.0), Anchor::End, "light *l*");
     let (x, y) = view.point(direction(mirror) * 1.19);
-    svg.math("", (x, y + 4.0), Anchor::Start, "mirror *r*");
+    if x < WIDTH - 76.0 {
+        svg.math("", (x, y + 4.0), Anchor::Start, "mirror *r*");
+    } else {
+        svg.math("", (WIDTH - 6.0, y - 10.0), Anchor::End, "mirror *r*");
+    }
     let (x, y) = view.point(Vec3::new(0.0, 0.0, 1.15));
     svg.math("", (x, y), Anchor::Middle, "*n*");
     for tick in -2..=2 {

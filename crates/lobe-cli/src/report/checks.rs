@@ -96,7 +96,7 @@ fn reciprocity() -> Check {
         let verdict = match (lobe.is_reciprocal(), differing) {
             (true, 0) => "equal to the last bit".to_owned(),
             (true, _) => format!("{differing} pairs differ"),
-            (false, _) => format!("not reciprocal, as documented: differs by up to {worst:.3e}"),
+            (false, _) => format!("not reciprocal, as documented: differs by a factor of up to {worst:.1e}"),
         };
         holds &= differing == 0 || !lobe.is_reciprocal();
         rows.push(vec![name(&lobe), lobe_kind(&lobe).to_owned(), verdict]);
