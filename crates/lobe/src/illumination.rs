@@ -122,7 +122,10 @@ impl<R: Real> Phong<R> {
     #[inline(always)]
     pub fn reflected(&self, n: Vec3<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
         let n_dot_l = n.dot(l);
-        let power = power::mirror_power((mirror(l, n) - v).length_squared(), self.q.0);
+        let one_minus_cos = (mirror(l, n) - v).length_squared().times(0.5);
+        let (zero, one) = (n_dot_l.lift(0.0), n_dot_l.lift(1.0));
+        let power = power::mirror_power(one_minus_cos, self.q.0);
+        let power = R::select(one_minus_cos.ge(one), zero, power);
         lit(n_dot_l, self.kd * n_dot_l + self.ks * power)
     }
 
@@ -173,7 +176,7 @@ impl<R: Real> BlinnTorrance<R> {
 
 /// One of the lecture's highlights as a lobe of the local frame.
 macro_rules! highlight {
-    ($(#[$doc:meta])* $name:ident, $power:path) => {
+    ($(#[$doc:meta])* $name:ident, $lobe:path) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name<R = f32> {
@@ -211,12 +214,13 @@ macro_rules! highlight {
             /// `eval_cos / (n·l)`: without bound towards the horizon of the light.
             #[inline(always)]
             fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-                self.ks * above_horizon(l, v, $power(l, v, self.q.0).times(FRAC_1_PI) / l.z)
+                // Selected once more: on the horizon itself the quotient is 0/0.
+                self.ks * above_horizon(l, v, $lobe(l, v, self.q.0).times(FRAC_1_PI) / l.z)
             }
 
             #[inline(always)]
             fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-                self.ks * above_horizon(l, v, $power(l, v, self.q.0).times(FRAC_1_PI))
+                self.ks * $lobe(l, v, self.q.0).times(FRAC_1_PI)
             }
         }
     };
@@ -227,7 +231,7 @@ highlight! {
     ///
     /// **Not a BRDF**: not reciprocal (`f(l, v) (n·l) = f(v, l) (n·v)`), and its albedo at normal incidence is
     /// `2 k_s/(q + 1)`, above 1 for `k_s = 1`, `q < 1`. See the [module](self) and [`crate::Phong`].
-    PhongHighlight, power::local_mirror_power
+    PhongHighlight, power::mirror_lobe
 }
 
 highlight! {
@@ -236,5 +240,5 @@ highlight! {
     /// **Not a BRDF**: not reciprocal (`f(l, v) (n·l) = f(v, l) (n·v)`), and its albedo at normal incidence is
     /// `8 k_s (1 − 2^(−(q+2)/2))/(q + 2)`, above 1 for `k_s = 1`, `q < 5.38`. See the [module](self) and
     /// [`crate::BlinnPhong`].
-    BlinnTorranceHighlight, power::local_half_vector_power
+    BlinnTorranceHighlight, power::half_vector_lobe
 }

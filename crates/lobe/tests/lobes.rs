@@ -98,7 +98,7 @@ fn every_lobe_is_registered() {
             }
         }
         // The two that a macro writes.
-        for line in text.lines().filter(|line| line.ends_with("_power") && line.contains(", power::")) {
+        for line in text.lines().filter(|line| line.ends_with("_lobe") && line.contains(", power::")) {
             let lobe = line.split(',').next().unwrap_or_default().trim();
             found += 1;
             assert!(names.contains(&lobe), "{lobe} of {} is not in the registry", path.display());

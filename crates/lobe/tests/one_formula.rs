@@ -448,9 +448,9 @@ fn a_recorder_prints_the_formula() {
     let f = Lambert::new(albedo).eval(l, v);
     let source: Vec<_> = arena.borrow().iter().enumerate().map(|(i, n)| format!("t{i} = {n}")).collect();
     let expected = "t0 = l.x; t1 = l.y; t2 = l.z; t3 = v.x; t4 = v.y; t5 = v.z; t6 = albedo; \
-        t7 = 0.3183098861837907; t8 = t0 + t3; t9 = t1 + t4; t10 = t2 + t5; t11 = t8 + t9; t12 = t11 + t10; \
-        t13 = 0.0; t14 = t12 * t13; t15 = t5 < t2; t16 = select(t15, t5, t2); t17 = t14 < t16; \
-        t18 = select(t17, t7, t14); t19 = t6 * t18";
+        t7 = 0.3183098861837907; t8 = t5 < t2; t9 = select(t8, t5, t2); t10 = t0 + t3; t11 = t1 + t4; \
+        t12 = t2 + t5; t13 = t10 + t11; t14 = t13 + t12; t15 = 0.0; t16 = t14 * t15; t17 = t16 < t9; \
+        t18 = select(t17, t7, t16); t19 = t6 * t18";
     assert_eq!(source.join("; "), expected);
     assert_eq!((f.r.id, f.g.id, f.b.id), (19, 19, 19));
 }

@@ -1,6 +1,6 @@
 //! Blinn-Phong: `f_r = ks N(q) · (n·h)^q`.
 
-use super::{Brdf, Shininess, above_horizon, power};
+use super::{Brdf, Shininess, power};
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;
@@ -113,7 +113,7 @@ impl<R: Real, N: Normalization> BlinnPhong<R, N> {
 impl<R: Real, N: Normalization> Brdf<R> for BlinnPhong<R, N> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        self.peak * above_horizon(l, v, power::local_half_vector_power(l, v, self.q.0))
+        self.peak * power::half_vector_lobe(l, v, self.q.0)
     }
 }
 

@@ -92,8 +92,14 @@ impl<R: Real, B: Brdf<R> + ?Sized> Brdf<R> for &B {
 /// depend on the component that holds it. So the zero is made from all six components, and selected where it is NaN.
 #[inline(always)]
 pub(crate) fn above_horizon<R: Real>(l: Vec3<R>, v: Vec3<R>, factor: R) -> R {
+    where_positive(l.z.min(v.z), l, v, factor)
+}
+
+/// `factor` where `condition > 0`, 0 elsewhere, NaN where a direction holds one.
+#[inline(always)]
+pub(crate) fn where_positive<R: Real>(condition: R, l: Vec3<R>, v: Vec3<R>, factor: R) -> R {
     let sum = l + v;
     let zero_or_nan = (sum.x + sum.y + sum.z).times(0.0);
-    // The lower of the two against a zero that may be NaN: one comparison answers all three questions.
-    R::select(l.z.min(v.z).gt(zero_or_nan), factor, zero_or_nan)
+    // Against a zero that may be NaN: one comparison answers both questions.
+    R::select(condition.gt(zero_or_nan), factor, zero_or_nan)
 }

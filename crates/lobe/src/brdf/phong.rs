@@ -1,6 +1,6 @@
 //! Phong: `f_r = ks (q + 2)/(2π) · max(0, r·v)^q`.
 
-use super::{Brdf, Shininess, above_horizon, power};
+use super::{Brdf, Shininess, power};
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;
@@ -66,6 +66,6 @@ impl<R: Real> Phong<R> {
 impl<R: Real> Brdf<R> for Phong<R> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        self.peak * above_horizon(l, v, power::local_mirror_power(l, v, self.q.0))
+        self.peak * power::mirror_lobe(l, v, self.q.0)
     }
 }

@@ -11,6 +11,7 @@
 //!
 //! `docs/numerics.md` derives the bounds.
 
+use super::{above_horizon, where_positive};
 use crate::number::Real;
 use crate::vector::Vec3;
 
@@ -34,25 +35,27 @@ pub(crate) fn half_vector_power<R: Real>(sin2: R, cos2: R, q: R) -> R {
     (-(q.times(0.5) * sin2.log2_1p_div(cos2))).exp2()
 }
 
-/// `max(0, r·v)^q` from `|r − v|²`; 0 wherever `r·v ≤ 0`, for `q = 0` too.
+/// `(r·v)^q` from `|r − v|²/2 = 1 − r·v < 1`.
 #[inline(always)]
-pub(crate) fn mirror_power<R: Real>(distance2: R, q: R) -> R {
-    let two = q.lift(2.0);
-    let power = (q * (-distance2).log2_1p_div(two)).exp2();
-    R::select(distance2.ge(two), q.lift(0.0), power)
+pub(crate) fn mirror_power<R: Real>(one_minus_cos: R, q: R) -> R {
+    (q * (-one_minus_cos).log2_1p_div(q.lift(1.0))).exp2()
 }
 
-/// [`half_vector_power`] in the local frame.
+/// `(n·h)^q` in the local frame where both directions are above the horizon, else 0 or NaN.
 #[inline(always)]
-pub(crate) fn local_half_vector_power<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
+pub(crate) fn half_vector_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
     let s = (l + v) * q.lift(TWO_POW_62);
-    half_vector_power(s.x.squared() + s.y.squared(), s.z.squared(), q)
+    above_horizon(l, v, half_vector_power(s.x.squared() + s.y.squared(), s.z.squared(), q))
 }
 
-/// [`mirror_power`] in the local frame, where the mirror direction of `l` is `(−l.x, −l.y, l.z)`.
+/// `max(0, r·v)^q` in the local frame, where the mirror direction of `l` is `(−l.x, −l.y, l.z)`, and where both
+/// directions are above the horizon; else 0 or NaN. It is 0 wherever `r·v ≤ 0`, for `q = 0` too.
 #[inline(always)]
-pub(crate) fn local_mirror_power<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
-    mirror_power((l.x + v.x).squared() + (l.y + v.y).squared() + (l.z - v.z).squared(), q)
+pub(crate) fn mirror_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
+    let distance2 = (l.x + v.x).squared() + (l.y + v.y).squared() + (l.z - v.z).squared();
+    let one_minus_cos = distance2.times(0.5);
+    let cos = q.lift(1.0) - one_minus_cos;
+    where_positive(l.z.min(v.z).min(cos), l, v, mirror_power(one_minus_cos, q))
 }
 
 /// Grazing cosines down to 1e-20 have squares below the range of `f32`; times 2⁶² they are normal numbers down to the

@@ -42,32 +42,48 @@ fn round_shifter<F: Binary32>(x: F) -> F {
 /// `2^x`, within 1 ulp on [−126, 128); 0 below, infinite above.
 #[inline(always)]
 pub fn exp2<F: Binary32>(x: F) -> F {
-    exp2_of_sum(x, x.lift(0.0))
+    exp2_of_sum(x, None)
 }
 
 /// `2^(hi + lo)` for `|lo|` far below `|hi|`.
 #[inline(always)]
-fn exp2_of_sum<F: Binary32>(hi: F, lo: F) -> F {
-    // Split off the integer: exact, since |hi| < 2^22 wherever the result is used.
-    let shifter = round_shifter(hi);
-    let r = (hi - shifter.plus(-SHIFT)) + lo;
-    // 2^r = 1 + r ln 2 + r² Q(r) on [−1/2, 1/2].
-    let q = r.lift(0.000158203649335);
-    let q = (q * r).plus(0.00134182034526);
-    let q = (q * r).plus(0.00961706321687);
-    let q = (q * r).plus(0.0555027239025);
-    let q = (q * r).plus(0.24022655189);
+fn exp2_of_sum<F: Binary32>(hi: F, lo: Option<F>) -> F {
+    // At 128 the exponent field below reaches that of infinity, if the significand is exactly 1.
+    let max = hi.lift(EXP2_MAX);
+    let (x, lo) = match lo {
+        None => (hi.min(max), None),
+        Some(lo) => {
+            let beyond = (hi + lo).ge(max);
+            (F::select(beyond, max, hi), Some(F::select(beyond, lo.lift(0.0), lo)))
+        }
+    };
+    // Split off the integer: exact, since |x| < 2^22 wherever the result is used.
+    let shifter = round_shifter(x);
+    let r = x - shifter.plus(-SHIFT);
+    let r = lo.map_or(r, |lo| r + lo);
+    // 2^r = 1 + r ln 2 + r² Q(r) on [−1/2, 1/2]. Even and odd terms side by side: the chain is half as long.
+    let r2 = r * r;
+    let q01 = r.times(EXP2_Q1).plus(EXP2_Q0);
+    let q23 = r.times(EXP2_Q3).plus(EXP2_Q2);
+    let q = q01 + r2 * (q23 + r2.times(EXP2_Q4));
     // What 1 + r ln 2 rounds off is added last. Without it the error is 1.04 ulp.
-    let linear = r.times(0.693147242069);
+    let linear = r.times(EXP2_LINEAR);
     let head = linear.plus(1.0);
-    let tail = (linear - head.plus(-1.0)) + q * (r * r);
+    let tail = (linear - head.plus(-1.0)) + r2 * q;
     let value = (head + tail).add_exponent(shifter);
-    // Outside the range the exponent field has wrapped around. NaN times infinity stays NaN.
-    let x = hi + lo;
-    let in_range = x.ge(x.lift(EXP2_MIN)) & x.lt(x.lift(EXP2_MAX));
-    let out_of_range = F::select(x.lt(x.lift(EXP2_MIN)), x.lift(0.0), x.times(f64::INFINITY));
-    F::select(in_range, value, out_of_range)
+    // Below the range the exponent field has wrapped around, and of a NaN it may have made a number. |0 · x| is 0 or
+    // NaN, for −∞ too once it is brought into range.
+    let zero_or_nan = x.max(x.lift(2.0 * EXP2_MIN)).times(0.0).abs();
+    F::select(x.ge(x.lift(EXP2_MIN)), value, zero_or_nan)
 }
+
+// ln 2 and Q(r), minimax on |r| ≤ 1/2.
+const EXP2_LINEAR: f64 = 0.693147242069;
+const EXP2_Q0: f64 = 0.24022655189;
+const EXP2_Q1: f64 = 0.0555027239025;
+const EXP2_Q2: f64 = 0.00961706321687;
+const EXP2_Q3: f64 = 0.00134182034526;
+const EXP2_Q4: f64 = 0.000158203649335;
 
 /// `log₂(m + c) + k`, as a sum of two, for `m + c` in [3/4, 3/2] with `c` below the last place of `m`.
 ///
@@ -168,24 +184,21 @@ pub fn log2_1p<F: Binary32>(x: F) -> F {
 const TWO_POW_64: f64 = 18_446_744_073_709_551_616.0;
 const TWO_POW_MINUS_30: f64 = 1.0 / 1_073_741_824.0;
 
-/// `log₂(1 + a/b)` with a relative error of at most 5·2⁻²⁴ (4.5 seen), with one division, for `b` and `a + b` from the
-/// smallest normal number to 2¹²⁷.
+/// `log₂(1 + a/b)` with one division and a relative error of at most 5·2⁻²⁴, for `a ≥ 0`, or for any `a > −b` if `b` is
+/// a power of two; `b` and `a + b` from the smallest normal number to 2¹²⁷.
 ///
-/// With `u = a + b` and `2ᵏ` so that `u/(b 2ᵏ)` is near 1, `s = (u − b 2ᵏ)/(u + b 2ᵏ)` and
-/// `log₂(1 + a/b) = k + 2/ln 2 · s + s³ Q(s²)`. The difference is exact, and for `k = 0` it is `a` itself.
+/// With `2ᵏ` so that `(a + b)/(b 2ᵏ)` is near 1, `s = (a + b − b 2ᵏ)/(a + b + b 2ᵏ)` and
+/// `log₂(1 + a/b) = k + 2/ln 2 · s + s³ Q(s²)`. In the numerator `b − b 2ᵏ` is 0 for `k = 0`, so that small quotients
+/// lose nothing; for larger ones its rounding is small against `k`; for a power of two it is exact.
 #[inline(always)]
 pub fn log2_1p_div<F: Binary32>(a: F, b: F) -> F {
-    let (u, c) = two_sum(a, b);
+    let u = a + b;
     let shifter = u.exponent_over(b);
-    let k = shifter.plus(-SHIFT);
     let b_scaled = b.add_exponent(shifter);
-    let s = ((u - b_scaled) + c) / (u + b_scaled);
+    let s = ((b - b_scaled) + a) / (u + b_scaled);
     let z = s * s;
-    let p = z.lift(LOG2_Q2);
-    let p = (p * z).plus(LOG2_Q1);
-    let p = (p * z).plus(LOG2_Q0);
-    let p = (p * z).plus(2.0 * core::f64::consts::LOG2_E);
-    p * s + k
+    let q = (z.times(LOG2_Q0).plus(2.0 * core::f64::consts::LOG2_E)) + (z * z) * z.times(LOG2_Q2).plus(LOG2_Q1);
+    q * s + shifter.plus(-SHIFT)
 }
 
 // Q(s²), minimax on |s| ≤ 1/5.
@@ -204,7 +217,7 @@ pub fn pow<F: Binary32>(x: F, y: F) -> F {
     let (log_hi, log_lo) = log2_of_positive(x);
     let y_hi = y_in_range.high_part();
     let lo = (y_in_range - y_hi) * log_hi + y_in_range * log_lo;
-    let value = exp2_of_sum(y_hi * log_hi, lo);
+    let value = exp2_of_sum(y_hi * log_hi, Some(lo));
     // 0 and ∞ have no logarithm to multiply.
     let vanishes = (x.eq(zero) & y.gt(zero)) | (x.eq(infinity) & y.lt(zero));
     let at_limit = F::select(vanishes, zero, infinity);

@@ -81,7 +81,8 @@ pub trait Real:
     ///
     /// In `f32`: within 1 ulp.
     fn log2_1p(self) -> Self;
-    /// `log₂(1 + self/denominator)`, for `denominator > 0` and `self ≥ −denominator`.
+    /// `log₂(1 + self/denominator)`, for `self ≥ 0` and `denominator > 0`; for `self > −denominator` too, if the
+    /// denominator is a power of two.
     ///
     /// With one division, and without forming the quotient, which may leave the range of the type: this is
     /// `log₂(1 + tan²θ)` down to the horizon. In `f32`: a relative error of at most 5·2⁻²⁴, for
