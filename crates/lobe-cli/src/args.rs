@@ -46,7 +46,7 @@ pub(crate) enum Command {
     /// Evaluate a BRDF for pairs of directions: CSV in, CSV out
     #[command(after_help = EVAL_HELP)]
     Eval(EvalArgs),
-    /// Draw lobes as SVG
+    /// Draw lobes as SVG, for a paper or a page
     #[command(after_help = PLOT_HELP)]
     Plot(PlotArgs),
     /// Try all 2^32 arguments of the elementary functions of f32
@@ -216,6 +216,8 @@ pub(crate) struct PlotArgs {
 }
 
 const PLOT_HELP: &str = "\
+Of a coloured lobe the luminance is drawn.
+
 Examples:
   lobe plot --brdf paper --brdf red-plastic -o lobes.svg
   lobe plot --kind compare --incidence 55 --q 50 -o compare.svg

@@ -6,8 +6,8 @@ use super::{Series, Setting, peak, profile, short_name};
 const WIDTH: f64 = 600.0;
 const LEFT: f64 = 66.0;
 const RIGHT: f64 = 584.0;
-const TOP: f64 = 30.0;
-const BOTTOM: f64 = 306.0;
+const TOP: f64 = 44.0;
+const BOTTOM: f64 = 320.0;
 /// More decades than this are not worth their ink.
 const DECADES: f64 = 8.0;
 
@@ -53,7 +53,7 @@ pub(crate) fn curve(series: &[Series<'_>], setting: Setting) -> Svg {
         svg.math("", (at, TOP - 7.0), Anchor::Middle, text);
     }
     svg.path("axis", &[(LEFT, TOP), (LEFT, BOTTOM), (RIGHT, BOTTOM)], false);
-    svg.math("soft", (LEFT - 60.0, TOP - 14.0), Anchor::Start, setting.quantity());
+    svg.math("soft", (LEFT - 60.0, TOP - 26.0), Anchor::Start, setting.quantity());
     let below = "viewing angle *θ* in the plane of incidence";
     svg.math("soft", ((LEFT + RIGHT) / 2.0, BOTTOM + 35.0), Anchor::Middle, below);
 

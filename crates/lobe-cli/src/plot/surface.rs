@@ -82,6 +82,7 @@ pub(crate) fn surface(series: &Series<'_>, setting: Setting) -> Svg {
     let title = format!("{} in three dimensions, light at {}°", series.name, label(setting.incidence));
     let mut svg = Svg::new(WIDTH, HEIGHT, &title);
     base(&mut svg, &view);
+    svg.dot("tip", CENTRE, 2.5);
     paint(&mut svg, &view, &shapes);
     labels(&mut svg, &view, mirror);
     svg.text("", (24.0, HEIGHT - 32.0), Anchor::Start, &short_name(&series.name, 64));
@@ -194,7 +195,6 @@ fn paint(svg: &mut Svg, view: &View, shapes: &[Shape]) {
 }
 
 fn labels(svg: &mut Svg, view: &View, mirror: f64) {
-    svg.dot("tip", CENTRE, 2.5);
     let (x, y) = view.point(direction(-mirror) * 1.17);
     svg.math("", (x.max(56.0), y + 4.0), Anchor::End, "light *l*");
     let (x, y) = view.point(direction(mirror) * 1.19);
