@@ -3,11 +3,12 @@
 use crate::args::{EvalArgs, Number};
 use crate::error::{Failure, reason};
 use crate::output;
+use crate::progress::Progress;
 use crate::spec::{self, Spec};
 use lobe::{Brdf, Real, Vec3};
 use serde_json::json;
 use std::fmt::Debug;
-use std::io::{BufRead, BufReader, BufWriter, Read as _, Write};
+use std::io::{BufRead, BufReader, BufWriter, IsTerminal as _, Read as _, Write};
 use std::str::FromStr;
 
 /// How far from 1 a length may be. Directions with three decimals pass; a forgotten normalisation does not.
@@ -103,9 +104,11 @@ pub(crate) fn run(args: &EvalArgs, quiet: bool, json: bool) -> Result<(), Failur
             let _ = writeln!(std::io::stderr(), "warning: {warning}");
         }
     }
+    // Values that run over the terminal are progress enough.
+    let bar = Progress::counting("pairs", quiet || std::io::stdout().is_terminal());
     match args.number {
-        Number::F32 => stream(&spec, 0.0_f32, args.normalize, json),
-        Number::F64 => stream(&spec, 0.0_f64, args.normalize, json),
+        Number::F32 => stream(&spec, 0.0_f32, args.normalize, json, &bar),
+        Number::F64 => stream(&spec, 0.0_f64, args.normalize, json, &bar),
     }
 }
 
@@ -126,13 +129,17 @@ fn list_presets(json: bool) -> Result<(), Failure> {
 }
 
 /// Reads, evaluates and prints until the input ends. What was right before a wrong line has been printed.
-fn stream<R: Scalar>(spec: &Spec, witness: R, normalize: bool, json: bool) -> Result<(), Failure> {
+fn stream<R: Scalar>(spec: &Spec, witness: R, normalize: bool, json: bool, bar: &Progress) -> Result<(), Failure> {
     let material = spec.build(witness);
     let mut input = BufReader::with_capacity(1 << 16, std::io::stdin().lock());
     let mut out = BufWriter::with_capacity(1 << 16, std::io::stdout().lock());
     let mut line = Vec::new();
     let mut number = 0_usize;
     let failure = loop {
+        // Seldom enough to cost nothing.
+        if number % 4096 == 4095 {
+            bar.advance(4096);
+        }
         // Before waiting for more, answer what has been asked: a program at the other end may be waiting too.
         if input.buffer().is_empty() && !output::stdout_result(out.flush())? {
             return Ok(());

@@ -15,8 +15,17 @@ pub(crate) struct Progress {
 impl Progress {
     /// `total` steps of work; never shown if `quiet`.
     pub(crate) fn new(label: &str, total: u64, quiet: bool) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template("{prefix:>14} {bar:40} {percent:>3} %  {eta} left") {
+        Self::with_template(label, Some(total), "{prefix:>14} {bar:40} {percent:>3} %  {eta} left", quiet)
+    }
+
+    /// Work of which nobody knows how much there is.
+    pub(crate) fn counting(label: &str, quiet: bool) -> Self {
+        Self::with_template(label, None, "{prefix:>14} {human_pos} in {elapsed}", quiet)
+    }
+
+    fn with_template(label: &str, total: Option<u64>, template: &str, quiet: bool) -> Self {
+        let bar = ProgressBar::with_draw_target(total, ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
         bar.set_prefix(label.to_owned());
