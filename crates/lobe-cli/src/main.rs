@@ -1,3 +1,7 @@
 //! The command `lobe`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    lobe_cli::main()
+}

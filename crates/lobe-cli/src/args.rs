@@ -1,0 +1,270 @@
+//! The command line.
+
+use clap::{Args as ArgsOf, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Shading lobes: look at them, evaluate them, check them.
+///
+/// Without a verb: `lobe report` of the scene that is built in, into ./lobe-report.
+#[derive(Debug, Parser)]
+#[command(name = "lobe", version, max_term_width = 100, after_help = AFTER_HELP)]
+pub(crate) struct Args {
+    /// What to do
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+    /// No progress bars, warnings or summary; errors, and what was asked for on standard output, stay
+    #[arg(long, short, global = true)]
+    pub(crate) quiet: bool,
+    /// Answer in JSON on standard output, for another program
+    #[arg(long, global = true)]
+    pub(crate) json: bool,
+}
+
+const AFTER_HELP: &str = "\
+Examples:
+  lobe                                          the report of the built-in scene
+  lobe render scene.json -o out.png
+  lobe plot --kind compare -o lobes.svg
+  echo 0.6,0,0.8,-0.6,0,0.8 | lobe eval --brdf red-plastic
+
+Exit codes:
+  0  all is well
+  1  a check failed (`sweep`: a bound is broken)
+  2  the command line is wrong
+  3  a file or a stream that was given is wrong
+  4  something cannot be written";
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render, plot and check a scene, and write it all into one page (the default verb)
+    #[command(after_help = REPORT_HELP)]
+    Report(ReportArgs),
+    /// Render a view of a scene
+    #[command(after_help = RENDER_HELP)]
+    Render(RenderArgs),
+    /// Evaluate a BRDF for pairs of directions: CSV in, CSV out
+    #[command(after_help = EVAL_HELP)]
+    Eval(EvalArgs),
+    /// Draw lobes as SVG, for a paper or a page
+    #[command(after_help = PLOT_HELP)]
+    Plot(PlotArgs),
+    /// Try all 2^32 arguments of the elementary functions of f32
+    #[command(after_help = SWEEP_HELP)]
+    Sweep(SweepArgs),
+    /// Print the completion script of a shell
+    #[command(after_help = "Example:\n  lobe completions bash > ~/.local/share/bash-completion/completions/lobe")]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+}
+
+/// `lobe report`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct ReportArgs {
+    /// The scene, .json or .obj; the built-in one without it
+    pub(crate) scene: Option<PathBuf>,
+    /// The folder to write index.html and report.json into; made if it is not there
+    #[arg(long, short, default_value = "lobe-report")]
+    pub(crate) output: PathBuf,
+    /// How Ks and Ns of the materials become a highlight: blinn-torrance, phong, normalized-phong or
+    /// normalized-blinn-phong; as the scene says without it
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) shading: Option<String>,
+    /// Rays for each pixel, 1 to 4096
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(crate) samples: u32,
+    /// Pixels in a row of the main picture, 64 to 4096; the others have two thirds of it
+    #[arg(long, default_value_t = 960, value_parser = clap::value_parser!(u32).range(64..=4096))]
+    pub(crate) width: u32,
+}
+
+impl Default for ReportArgs {
+    /// What `lobe` does without a verb; the values that clap fills in.
+    fn default() -> Self {
+        Self { scene: None, output: PathBuf::from("lobe-report"), shading: None, samples: 4, width: 960 }
+    }
+}
+
+const REPORT_HELP: &str = "\
+Writes DIR/index.html, one page that needs no other file, and DIR/report.json with the same facts.
+
+Examples:
+  lobe report
+  lobe report scene.json -o out
+  lobe report model.obj --shading normalized-blinn-phong --json > facts.json";
+
+/// `lobe render`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct RenderArgs {
+    /// The scene, .json or .obj; the built-in one without it
+    pub(crate) scene: Option<PathBuf>,
+    /// The picture to write: .png (sRGB), .exr or .pfm (linear)
+    #[arg(long, short)]
+    pub(crate) output: PathBuf,
+    /// The view, by name; the first one without it
+    #[arg(long)]
+    pub(crate) view: Option<String>,
+    /// Pixels in a row
+    #[arg(long, default_value_t = 1280, value_parser = clap::value_parser!(u32).range(1..=32768))]
+    pub(crate) width: u32,
+    /// Rows
+    #[arg(long, default_value_t = 720, value_parser = clap::value_parser!(u32).range(1..=32768))]
+    pub(crate) height: u32,
+    /// Rays for each pixel, 1 to 4096
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(crate) samples: u32,
+    /// Stops to add to the exposure of the view (.png only)
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_stops)]
+    pub(crate) exposure: f32,
+    /// 16 bits a channel (.png only)
+    #[arg(long)]
+    pub(crate) deep: bool,
+    /// How Ks and Ns of the materials become a highlight: blinn-torrance, phong, normalized-phong or
+    /// normalized-blinn-phong; as the scene says without it
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) shading: Option<String>,
+}
+
+const RENDER_HELP: &str = "\
+Examples:
+  lobe render scene.json -o out.png
+  lobe render scene.json --view top --samples 16 -o top.exr
+  lobe render model.obj --shading normalized-phong -o model.png";
+
+fn parse_stops(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(stops) if stops.abs() <= 100.0 => Ok(stops),
+        _ => Err("a number of stops from -100 to 100, such as 1.5".to_owned()),
+    }
+}
+
+/// `lobe eval`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct EvalArgs {
+    /// The BRDF: JSON, @FILE with JSON, or the name of a preset
+    #[arg(long, default_value = "red-plastic")]
+    pub(crate) brdf: String,
+    /// The number type to read, compute and print in: f32 or f64
+    #[arg(long, default_value = "f32", value_parser = parse_number)]
+    pub(crate) number: Number,
+    /// Scale directions to unit length first; without it a length off by more than 0.001 is an error
+    #[arg(long)]
+    pub(crate) normalize: bool,
+    /// List the presets and what they are made of
+    #[arg(long)]
+    pub(crate) list_presets: bool,
+}
+
+const EVAL_HELP: &str = "\
+Standard input:  lx,ly,lz,vx,vy,vz on each line, the directions to the light and to the viewer in the local frame
+                 of the surface (normal = +z), unit length. Blank lines, # comments and a header line are skipped.
+Standard output: r,g,b of f_r in 1/sr on each line, with every digit that the number type has.
+
+Examples:
+  echo 0.6,0,0.8,-0.6,0,0.8 | lobe eval --brdf red-plastic
+  lobe eval --brdf '{\"lobes\": [{\"model\": \"phong\", \"ks\": 0.5, \"q\": 50}]}' --number f64 < pairs.csv
+  lobe eval --brdf @paint.json < pairs.csv > values.csv
+
+Models in JSON:
+  {\"model\": \"lambert\", \"albedo\": [0.5, 0.1, 0.1]}      a colour may also be one number
+  {\"model\": \"phong\", \"ks\": 0.3, \"q\": 50}
+  {\"model\": \"blinn-phong\", \"ks\": 0.3, \"q\": 50, \"normalization\": \"normal-incidence\"}   or \"common\"
+  {\"model\": \"lecture-phong\", \"ks\": 0.3, \"q\": 50}
+  {\"model\": \"lecture-blinn-torrance\", \"ks\": 0.3, \"q\": 50}";
+
+/// The number types that are there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Number {
+    /// 32-bit floats.
+    F32,
+    /// 64-bit floats.
+    F64,
+}
+
+fn parse_number(text: &str) -> Result<Number, String> {
+    match text {
+        "f32" => Ok(Number::F32),
+        "f64" => Ok(Number::F64),
+        "wide" | "fast" | "coarse" | "half" => Err("planned, but not there yet; use f32 or f64".to_owned()),
+        _ => Err("unknown number type; use f32 or f64".to_owned()),
+    }
+}
+
+/// `lobe plot`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct PlotArgs {
+    /// What to draw
+    #[arg(long, value_enum, default_value = "polar")]
+    pub(crate) kind: Kind,
+    /// A BRDF: JSON, @FILE or a preset; may be given several times (`surface` draws one). Not for `compare`
+    #[arg(long)]
+    pub(crate) brdf: Vec<String>,
+    /// The angle between the light and the normal, in degrees, from 0 to below 90
+    #[arg(long, default_value_t = 55.0, value_parser = parse_incidence)]
+    pub(crate) incidence: f64,
+    /// Draw f_r times the cosine of the outgoing direction, as a goniometer would see it (polar, curve and surface)
+    #[arg(long)]
+    pub(crate) cosine: bool,
+    /// The exponent q of `compare`, from 0 to 250000
+    #[arg(long, default_value_t = 50.0, value_parser = parse_exponent)]
+    pub(crate) q: f64,
+    /// The SVG file to write; - for standard output
+    #[arg(long, short, default_value = "lobe.svg")]
+    pub(crate) output: PathBuf,
+}
+
+const PLOT_HELP: &str = "\
+Of a coloured lobe the luminance is drawn.
+
+Examples:
+  lobe plot --brdf paper --brdf red-plastic -o lobes.svg
+  lobe plot --kind compare --incidence 55 --q 50 -o compare.svg
+  lobe plot --kind surface --brdf '{\"lobes\": [{\"model\": \"phong\", \"ks\": 1, \"q\": 20}]}' -o surface.svg
+  lobe plot --kind curve --brdf glossy --incidence 80 -o - > curve.svg";
+
+/// The kinds of plot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Kind {
+    /// The lobes in the plane of incidence, as the distance from the point that is lit
+    Polar,
+    /// The lecture's comparison: mirror lobe against half-vector lobe, at the incidence given and at 85°
+    Compare,
+    /// One lobe in three dimensions
+    Surface,
+    /// The value over the angle, on a logarithmic scale
+    Curve,
+}
+
+fn parse_incidence(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(degrees) if (0.0..=89.9).contains(&degrees) => Ok(degrees),
+        _ => Err("an angle in degrees from 0 to 89.9, such as 55".to_owned()),
+    }
+}
+
+fn parse_exponent(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        // The half-vector lobe is drawn at 4q too, and the domain ends at a million.
+        Ok(q) if (0.0..=250_000.0).contains(&q) => Ok(q),
+        _ => Err("an exponent from 0 to 250000, such as 50".to_owned()),
+    }
+}
+
+/// `lobe sweep`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct SweepArgs {
+    /// One function, such as log2; all of them without it
+    pub(crate) function: Option<String>,
+    /// Try only every N-th bit pattern
+    #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) stride: u32,
+}
+
+const SWEEP_HELP: &str = "\
+All 2^32 arguments of all functions take some minutes on a few cores. Exit code 1 if a bound is broken.
+
+Examples:
+  lobe sweep log2
+  lobe sweep --stride 1009 --json";

@@ -1,0 +1,139 @@
+//! `lobe plot`: lobes as SVG.
+
+mod compare;
+mod curve;
+mod polar;
+mod surface;
+pub(crate) mod svg;
+
+pub(crate) use compare::{compare, compare_panel};
+pub(crate) use curve::curve;
+pub(crate) use polar::polar;
+pub(crate) use surface::surface;
+
+use crate::args::{Kind, PlotArgs};
+use crate::error::Failure;
+use crate::output;
+use crate::spec::{self, Spec};
+use lobe::{Brdf, Vec3};
+use serde_json::json;
+use std::io::Write as _;
+
+/// A BRDF with the name that it has in the legend.
+pub(crate) struct Series<'a> {
+    pub(crate) name: String,
+    pub(crate) brdf: &'a dyn Brdf<f64>,
+}
+
+/// What all plots of BRDFs are told.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Setting {
+    /// Between the light and the normal, in degrees.
+    pub(crate) incidence: f64,
+    /// Whether values are multiplied with the cosine of the outgoing direction.
+    pub(crate) cosine: bool,
+}
+
+impl Setting {
+    /// The direction to the light: on the left, in the plane of the picture.
+    fn light(self) -> Vec3<f64> {
+        direction(-self.incidence.to_radians())
+    }
+
+    /// The value that is drawn: the luminance of `f_r`, in sr⁻¹.
+    fn value(self, brdf: &dyn Brdf<f64>, v: Vec3<f64>) -> f64 {
+        let f = brdf.eval(self.light(), v).luminance();
+        let f = if self.cosine { f * v.z.max(0.0) } else { f };
+        // What overflows cannot be drawn.
+        if f.is_finite() { f } else { 0.0 }
+    }
+
+    /// What the values are called.
+    fn quantity(self) -> &'static str {
+        if self.cosine { "*f*_{r} cos *θ* (sr⁻¹)" } else { "*f*_{r} (sr⁻¹)" }
+    }
+}
+
+/// The direction in the plane of incidence at an angle from the normal, positive to the right.
+fn direction(theta: f64) -> Vec3<f64> {
+    Vec3::new(theta.sin(), 0.0, theta.cos())
+}
+
+/// The lobe in the plane of incidence: angles in radians with their values, dense around the mirror direction, where
+/// the sharpest lobes have all that they are.
+fn profile(series: &Series<'_>, setting: Setting) -> Vec<(f64, f64)> {
+    const HORIZON: f64 = 89.99;
+    let mirror = setting.incidence.to_radians();
+    let even = (-720..=720).map(|i| (f64::from(i) * 0.125).clamp(-HORIZON, HORIZON).to_radians());
+    let near = (0..=120).map(|i| 1e-4 * 10.0_f64.powf(f64::from(i) / 40.0));
+    let near = near.flat_map(|offset| [mirror - offset, mirror + offset]).chain([mirror]);
+    let mut angles: Vec<f64> = even.chain(near.filter(|angle| angle.abs() < HORIZON.to_radians())).collect();
+    angles.sort_by(f64::total_cmp);
+    angles.into_iter().map(|angle| (angle, setting.value(series.brdf, direction(angle)))).collect()
+}
+
+/// The largest value of all profiles.
+fn peak(profiles: &[Vec<(f64, f64)>]) -> f64 {
+    profiles.iter().flatten().fold(0.0, |max, &(_, value)| value.max(max))
+}
+
+/// A name that fits into a legend.
+fn short_name(name: &str, longest: usize) -> String {
+    if name.chars().count() <= longest {
+        return name.to_owned();
+    }
+    name.chars().take(longest.saturating_sub(1)).chain(['…']).collect()
+}
+
+/// Runs the verb.
+pub(crate) fn run(args: &PlotArgs, quiet: bool, json: bool) -> Result<(), Failure> {
+    let setting = Setting { incidence: args.incidence, cosine: args.cosine };
+    let specs = specs(args)?;
+    if !quiet {
+        for warning in specs.iter().flat_map(Spec::warnings) {
+            let _ = writeln!(std::io::stderr(), "warning: {warning}");
+        }
+    }
+    let brdfs: Vec<_> = specs.iter().map(|spec| spec.build(0.0_f64)).collect();
+    let series: Vec<_> =
+        specs.iter().zip(&brdfs).map(|(spec, brdf)| Series { name: legend_name(spec), brdf }).collect();
+    let svg = match (args.kind, series.first()) {
+        (Kind::Polar, _) => polar(&series, setting),
+        (Kind::Curve, _) => curve(&series, setting),
+        (Kind::Surface, Some(first)) => surface(first, setting),
+        (Kind::Compare, _) | (Kind::Surface, None) => compare(args.q, args.incidence),
+    };
+    output::write_file(&args.output, svg.file().as_bytes())?;
+    let to_stdout = args.output.as_os_str() == "-";
+    match (to_stdout, json, quiet) {
+        (true, _, _) | (false, false, true) => Ok(()),
+        (false, true, _) => {
+            output::print(format!("{}\n", json!({ "written": args.output.display().to_string() })).as_bytes())
+        }
+        (false, false, false) => output::print(format!("{}\n", args.output.display()).as_bytes()),
+    }
+}
+
+/// The BRDFs to draw: those asked for, or a few that show what there is.
+fn specs(args: &PlotArgs) -> Result<Vec<Spec>, Failure> {
+    let given: Vec<&str> = args.brdf.iter().map(String::as_str).collect();
+    let (names, most) = match args.kind {
+        Kind::Compare if !given.is_empty() => {
+            let right = "give --q, or --kind polar to draw BRDFs";
+            return Err(Failure::Usage(format!("--kind compare draws no --brdf; {right}")));
+        }
+        Kind::Compare => return Ok(Vec::new()),
+        Kind::Surface => (if given.is_empty() { vec!["glossy"] } else { given }, 1),
+        _ => (if given.is_empty() { vec!["mirror-lobe", "half-vector-lobe"] } else { given }, svg::SERIES),
+    };
+    if names.len() > most {
+        let found = names.len();
+        return Err(Failure::Usage(format!("{found} times --brdf; this kind of plot draws at most {most}")));
+    }
+    names.into_iter().map(spec::from_argument).collect()
+}
+
+fn legend_name(spec: &Spec) -> String {
+    let made_of = spec.description();
+    if made_of == spec.name { made_of } else { format!("{}: {made_of}", spec.name) }
+}

@@ -1,0 +1,90 @@
+//! `lobe render`: one view of a scene, as a picture.
+
+use crate::args::RenderArgs;
+use crate::error::Failure;
+use crate::output;
+use crate::progress::Progress;
+use lobe_scene::image::{Depth, Display, MAX_PIXELS, check_ending};
+use lobe_scene::{Image, LoadOptions, Renderer, Scene, Settings, ShadingModel, View, default_scene, load};
+use serde_json::json;
+use std::io::Write as _;
+use std::path::Path;
+use std::time::Instant;
+
+/// Runs the verb.
+pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Failure> {
+    // What can be known to fail is known before the work.
+    check_ending(&args.output).map_err(|error| Failure::Usage(error.to_string()))?;
+    let pixels = u64::from(args.width) * u64::from(args.height);
+    if pixels > MAX_PIXELS {
+        let size = format!("{}x{}", args.width, args.height);
+        return Err(Failure::Usage(format!(
+            "a picture of {size} has {pixels} pixels; at most {MAX_PIXELS} are possible"
+        )));
+    }
+    let scene = open(args.scene.as_deref(), args.shading.as_deref())?;
+    if !quiet {
+        for warning in &scene.warnings {
+            let _ = writeln!(std::io::stderr(), "warning: {warning}");
+        }
+    }
+    let view = view(&scene, args.view.as_deref())?;
+    let settings = Settings { width: args.width, height: args.height, samples: args.samples, ..Settings::default() };
+    let start = Instant::now();
+    let renderer = Renderer::new(&scene)?;
+    let image = take(&renderer, &view, &settings, &view.name, quiet)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let depth = if args.deep { Depth::Sixteen } else { Depth::Eight };
+    image.save(&args.output, &Display { exposure: view.exposure + args.exposure, depth })?;
+
+    let (path, triangles) = (args.output.display(), scene.triangle_count());
+    if json {
+        let facts = json!({
+            "written": path.to_string(),
+            "view": view.name,
+            "width": settings.width,
+            "height": settings.height,
+            "samples": settings.samples,
+            "triangles": triangles,
+            "seconds": seconds,
+            "warnings": scene.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        });
+        return output::print(format!("{facts:#}\n").as_bytes());
+    }
+    if quiet {
+        return Ok(());
+    }
+    let size = format!("{}x{}, {} samples", settings.width, settings.height, settings.samples);
+    let line = format!("{path}: view `{}`, {size}, {triangles} triangles, {seconds:.2} s\n", view.name);
+    output::print(line.as_bytes())
+}
+
+/// The scene of a file, or the built-in one.
+pub(crate) fn open(path: Option<&Path>, shading: Option<&str>) -> Result<Scene, Failure> {
+    let shading_model = shading.map(|name| name.parse::<ShadingModel>().map_err(|e| Failure::Usage(e.to_string())));
+    let options = LoadOptions { shading_model: shading_model.transpose()?, ..LoadOptions::default() };
+    Ok(match path {
+        Some(path) => load(path, &options)?,
+        None => default_scene(&options)?,
+    })
+}
+
+/// The view of this name, or the first.
+fn view(scene: &Scene, name: Option<&str>) -> Result<View, Failure> {
+    match name {
+        Some(name) => scene.view(name).cloned().map_err(|error| Failure::Usage(error.to_string())),
+        None => Ok(scene.views.first().cloned().unwrap_or_default()),
+    }
+}
+
+/// Takes the picture, with a progress bar if it takes long.
+pub(crate) fn take(
+    renderer: &Renderer<'_>,
+    view: &View,
+    settings: &Settings,
+    label: &str,
+    quiet: bool,
+) -> Result<Image, Failure> {
+    let bar = Progress::new(label, u64::from(settings.height), quiet);
+    Ok(renderer.render(view, settings, Some(&|done, _| bar.set(done)))?)
+}

@@ -1,0 +1,164 @@
+//! The scene's materials: what they are made of, and how much light they reflect.
+
+use lobe::{Brdf, Rgb, Vec3};
+use lobe_energy::directional_albedo;
+use lobe_scene::{LobeRecord, Material};
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// A row of the table.
+#[derive(Debug, Serialize)]
+pub(crate) struct MaterialFacts {
+    pub(crate) name: String,
+    pub(crate) lobes: Vec<LobeFacts>,
+    pub(crate) ambient: [f32; 3],
+    pub(crate) emission: [f32; 3],
+    pub(crate) dissolve: f32,
+    /// The directional albedo, with the mirror, at [`SHOWN`] degrees. Empty if a lobe cannot be integrated.
+    pub(crate) albedo: Vec<[f64; 3]>,
+    /// The highest albedo of a channel, at any of the angles tried.
+    pub(crate) highest: Option<f64>,
+    /// The angle at which it is.
+    pub(crate) highest_at: f64,
+    pub(crate) gains_energy: bool,
+    /// The verdict in words, with what would mend it.
+    pub(crate) verdict: String,
+}
+
+/// One lobe of a material.
+#[derive(Debug, Serialize)]
+pub(crate) struct LobeFacts {
+    pub(crate) model: String,
+    pub(crate) reflectance: Option<[f32; 3]>,
+    pub(crate) exponent: Option<f32>,
+}
+
+/// The angles in the table.
+pub(crate) const SHOWN: [f64; 3] = [0.0, 45.0, 85.0];
+/// The angles at which the verdict looks, those of the table first.
+const TRIED: [f64; 7] = [0.0, 45.0, 85.0, 25.0, 65.0, 75.0, 89.0];
+
+/// The lobes of a material as one BRDF.
+pub(crate) struct Whole(Vec<LobeRecord>);
+
+impl Brdf<f64> for Whole {
+    fn eval(&self, l: Vec3<f64>, v: Vec3<f64>) -> Rgb<f64> {
+        self.sum(|lobe| lobe.eval(l, v))
+    }
+    fn eval_cos(&self, l: Vec3<f64>, v: Vec3<f64>) -> Rgb<f64> {
+        self.sum(|lobe| lobe.eval_cos(l, v))
+    }
+}
+
+impl Whole {
+    fn sum(&self, value: impl Fn(&dyn Brdf<f64>) -> Rgb<f64>) -> Rgb<f64> {
+        let lobes = self.0.iter().filter_map(|record| record.reference.as_deref());
+        lobes.fold(Rgb::splat(0.0), |sum, lobe| sum + value(lobe))
+    }
+
+    /// All lobes of the material that can be evaluated in `f64`.
+    pub(crate) fn of(material: &Material) -> Self {
+        Self(material.surface.lobes())
+    }
+
+    /// Whether there is something beside the diffuse lobe.
+    pub(crate) fn has_highlight(&self) -> bool {
+        self.0.iter().any(|lobe| lobe.exponent.is_some())
+    }
+
+    /// The name for a legend: `gold: q=200`.
+    pub(crate) fn legend(&self, name: &str) -> String {
+        match self.0.iter().find_map(|lobe| lobe.exponent) {
+            Some(q) => format!("{name}: q={q}"),
+            None => name.to_owned(),
+        }
+    }
+}
+
+/// The names of `lobe eval` for the lecture's highlights.
+fn model_name(model: &str) -> &str {
+    match model {
+        "phong-highlight" => "lecture-phong",
+        "blinn-torrance-highlight" => "lecture-blinn-torrance",
+        other => other,
+    }
+}
+
+/// Everything about all materials; `done` is called after each.
+pub(crate) fn facts(materials: &[Material], done: &(dyn Fn() + Sync)) -> Vec<MaterialFacts> {
+    materials
+        .par_iter()
+        .map(|material| {
+            let facts = one(material);
+            done();
+            facts
+        })
+        .collect()
+}
+
+fn one(material: &Material) -> MaterialFacts {
+    let whole = Whole::of(material);
+    let mirror: Rgb<f64> = material.mirror.ks().map(f64::from);
+    let known = whole.0.iter().all(|lobe| lobe.reference.is_some());
+    let albedo = |angle: f64| -> [f64; 3] {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        (directional_albedo(&whole, Vec3::new(sin, 0.0, cos)).value + mirror).into()
+    };
+    let all: Vec<[f64; 3]> = if known { TRIED.iter().map(|&angle| albedo(angle)).collect() } else { Vec::new() };
+    let highest = TRIED
+        .iter()
+        .zip(&all)
+        .map(|(&angle, rgb)| (angle, rgb.iter().fold(0.0_f64, |max, &x| max.max(x))))
+        .fold((0.0, 0.0), |best, next| if next.1 > best.1 { next } else { best });
+
+    let mut lobes: Vec<LobeFacts> = whole
+        .0
+        .iter()
+        .map(|lobe| LobeFacts {
+            model: model_name(lobe.model).to_owned(),
+            reflectance: lobe.reflectance,
+            exponent: lobe.exponent,
+        })
+        .collect();
+    if mirror != Rgb::splat(0.0) {
+        let reflectance = Some(material.mirror.ks().into());
+        lobes.push(LobeFacts { model: "mirror".to_owned(), reflectance, exponent: None });
+    }
+    // The tolerance is that of the quadrature, and of coefficients that were rounded to f32.
+    let gains_energy = highest.1 > 1.0 + 1e-5;
+    MaterialFacts {
+        name: material.name.clone(),
+        ambient: material.ambient.into(),
+        emission: material.emission.into(),
+        dissolve: material.dissolve,
+        albedo: all.iter().take(SHOWN.len()).copied().collect(),
+        highest: known.then_some(highest.1),
+        highest_at: highest.0,
+        gains_energy,
+        verdict: verdict(known, highest, gains_energy, &lobes),
+        lobes,
+    }
+}
+
+fn verdict(known: bool, (angle, highest): (f64, f64), gains_energy: bool, lobes: &[LobeFacts]) -> String {
+    if !known {
+        return "not known: a lobe cannot be integrated".to_owned();
+    }
+    if lobes.is_empty() {
+        return "reflects no light".to_owned();
+    }
+    if !gains_energy {
+        return format!("conserves energy: reflects at most {:.1} %", highest * 100.0);
+    }
+    let lecture = lobes.iter().any(|lobe| lobe.model.starts_with("lecture-"));
+    let mirrored = lobes.iter().any(|lobe| lobe.model == "mirror");
+    // Rounded down, so that the factor that is named does mend it.
+    let factor = (99.9 / highest).floor() / 100.0;
+    let mut text = format!("gains energy: {:.1} % at {angle}°. Scale Kd and Ks by {factor:.2}", highest * 100.0);
+    match (lecture, mirrored) {
+        (_, true) => text += ", or lower Ks: it counts twice, for the mirror and for the highlight",
+        (true, false) => text += ", or render with --shading normalized-blinn-phong and Kd + Ks at most 1",
+        (false, false) => text += ", so that Kd + Ks is at most 1",
+    }
+    text
+}

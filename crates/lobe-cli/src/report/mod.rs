@@ -1,0 +1,255 @@
+//! `lobe report`: renders, plots and checks, and writes it all into one page.
+
+mod base64;
+mod checks;
+mod materials;
+mod page;
+mod pictures;
+mod random;
+
+use crate::args::ReportArgs;
+use crate::error::Failure;
+use crate::output;
+use crate::plot::{self, Series, Setting, svg::Svg};
+use crate::progress::Progress;
+use crate::render;
+use crate::spec;
+use checks::Check;
+use lobe_scene::{Renderer, Scene};
+use materials::{MaterialFacts, Whole};
+use pictures::Picture;
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::time::Instant;
+
+/// Everything that the page shows, and `report.json` holds.
+#[derive(Debug, Serialize)]
+pub(crate) struct Facts {
+    /// The version of `lobe`.
+    pub(crate) version: &'static str,
+    /// The command that makes this report again.
+    pub(crate) command: String,
+    pub(crate) scene: SceneFacts,
+    pub(crate) views: Vec<Picture>,
+    pub(crate) materials: Vec<MaterialFacts>,
+    pub(crate) checks: Vec<Check>,
+    pub(crate) warnings: Vec<String>,
+    pub(crate) seconds: Seconds,
+}
+
+/// The scene in numbers.
+#[derive(Debug, Serialize)]
+pub(crate) struct SceneFacts {
+    /// The file, or "built-in".
+    pub(crate) source: String,
+    pub(crate) triangles: usize,
+    pub(crate) meshes: usize,
+}
+
+/// How long things took.
+#[derive(Debug, Serialize)]
+pub(crate) struct Seconds {
+    pub(crate) load: f64,
+    pub(crate) render: f64,
+    pub(crate) energy: f64,
+    pub(crate) checks: f64,
+    pub(crate) total: f64,
+}
+
+/// A plot with what it shows.
+pub(crate) struct Plot {
+    pub(crate) title: String,
+    pub(crate) caption: String,
+    pub(crate) svg: Svg,
+}
+
+/// Runs the verb.
+pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Failure> {
+    let start = Instant::now();
+    // A wrong scene or folder is known before the work.
+    let scene = render::open(args.scene.as_deref(), args.shading.as_deref())?;
+    let renderer = Renderer::new(&scene)?;
+    let load = start.elapsed().as_secs_f64();
+    output::make_folder(&args.output)?;
+    if !quiet {
+        for warning in &scene.warnings {
+            let _ = writeln!(std::io::stderr(), "warning: {warning}");
+        }
+    }
+
+    let start_render = Instant::now();
+    let size = (args.width, args.samples);
+    let (views, more_warnings) = pictures::take(&scene, &renderer, size, args.scene.is_none(), quiet)?;
+    let render = start_render.elapsed().as_secs_f64();
+
+    let start_energy = Instant::now();
+    let bar = Progress::new("energy", scene.materials.len() as u64, quiet);
+    let materials = materials::facts(&scene.materials, &|| bar.advance(1));
+    drop(bar);
+    let energy = start_energy.elapsed().as_secs_f64();
+
+    let start_checks = Instant::now();
+    let bar = Progress::new("checks", checks::COUNT, quiet);
+    let checks = checks::all(&|| bar.advance(1));
+    drop(bar);
+    let check_seconds = start_checks.elapsed().as_secs_f64();
+
+    let plots = plots(&scene);
+    let warnings = scene.warnings.iter().map(ToString::to_string).chain(more_warnings).collect();
+    let total = start.elapsed().as_secs_f64();
+    let facts = Facts {
+        version: env!("CARGO_PKG_VERSION"),
+        command: command(args),
+        scene: SceneFacts {
+            source: args.scene.as_ref().map_or("built-in".to_owned(), |path| path.display().to_string()),
+            triangles: scene.triangle_count(),
+            meshes: scene.meshes.len(),
+        },
+        views,
+        materials,
+        checks,
+        warnings,
+        seconds: Seconds { load, render, energy, checks: check_seconds, total },
+    };
+    let facts_json = serde_json::to_string_pretty(&facts)
+        .map_err(|error| Failure::Write(format!("report.json: cannot write this as JSON: {error}; report this")))?;
+
+    let page = page::html(&facts, &plots);
+    output::write_file(&args.output.join("index.html"), page.as_bytes())?;
+    output::write_file(&args.output.join("report.json"), format!("{facts_json}\n").as_bytes())?;
+    if json {
+        return output::print(format!("{facts_json}\n").as_bytes());
+    }
+    if quiet {
+        return Ok(());
+    }
+    output::print(summary(&facts, &args.output.join("index.html").display().to_string()).as_bytes())
+}
+
+/// The command line that makes the same report.
+fn command(args: &ReportArgs) -> String {
+    let quoted = |text: &str| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "._-/+=:,".contains(c);
+        if !text.is_empty() && text.chars().all(plain) {
+            text.to_owned()
+        } else {
+            format!("'{}'", text.replace('\'', "'\\''"))
+        }
+    };
+    let mut command = "lobe report".to_owned();
+    if let Some(scene) = &args.scene {
+        let _ = write!(command, " {}", quoted(&scene.display().to_string()));
+    }
+    let _ = write!(command, " -o {}", quoted(&args.output.display().to_string()));
+    if let Some(shading) = &args.shading {
+        let _ = write!(command, " --shading {}", quoted(shading));
+    }
+    let _ = write!(command, " --samples {} --width {}", args.samples, args.width);
+    command
+}
+
+/// The plots: the lecture's comparison, the lobes as BRDFs, and those of the scene.
+fn plots(scene: &Scene) -> Vec<Plot> {
+    const Q: f64 = 50.0;
+    let mut plots = Vec::new();
+    for (incidence, caption) in [
+        (
+            55.0,
+            "At the same exponent the half-vector lobe is about twice as wide, because the angle to h is half of the angle to \
+             r. With four times the exponent it falls on the mirror lobe, but only in the plane of incidence: across it, it is \
+             narrower.",
+        ),
+        (
+            85.0,
+            "Towards grazing light the half-vector lobe becomes a narrow upright streak, as one sees on wet roads; the mirror \
+             lobe stays round, and nearly half of it is below the surface. No exponent makes one into the other.",
+        ),
+    ] {
+        plots.push(Plot {
+            title: format!("Mirror lobe and half-vector lobe, light at {incidence}°"),
+            caption: caption.to_owned(),
+            svg: plot::compare_panel(Q, incidence),
+        });
+    }
+
+    let presets = ["mirror-lobe", "half-vector-lobe"].map(spec::from_argument);
+    if let [Ok(mirror), Ok(half)] = presets {
+        let brdfs = [mirror.build(0.0_f64), half.build(0.0_f64)];
+        let names = ["phong q=50", "blinn-phong q=50"];
+        let series: Vec<Series<'_>> =
+            names.iter().zip(&brdfs).map(|(name, brdf)| Series { name: (*name).to_owned(), brdf }).collect();
+        let setting = Setting { incidence: 55.0, cosine: false };
+        plots.push(Plot {
+            title: "The same two as BRDFs".to_owned(),
+            caption:
+                "Normalised to reflect the same part of the light, the wider lobe is the lower one. Values in sr⁻¹."
+                    .to_owned(),
+            svg: plot::polar(&series, setting),
+        });
+        plots.extend(scene_curves(scene));
+        let grazing = Setting { incidence: 75.0, cosine: false };
+        for (one, caption) in series.iter().zip([
+            "The mirror lobe is a body of revolution around r, cut off by the surface.",
+            "The half-vector lobe is a blade: high in the plane of incidence, thin across it.",
+        ]) {
+            plots.push(Plot {
+                title: format!("{} in three dimensions, light at 75°", one.name),
+                caption: caption.to_owned(),
+                svg: plot::surface(one, grazing),
+            });
+        }
+    }
+    plots
+}
+
+/// The materials of the scene that have a highlight, at most as many as there are line styles.
+fn scene_curves(scene: &Scene) -> Option<Plot> {
+    let shiny: Vec<(&str, Whole)> = scene
+        .materials
+        .iter()
+        .map(|material| (material.name.as_str(), Whole::of(material)))
+        .filter(|(_, whole)| whole.has_highlight())
+        .collect();
+    if shiny.is_empty() {
+        return None;
+    }
+    let count = shiny.len().min(plot::svg::SERIES);
+    // Spread over the list.
+    let chosen: Vec<&(&str, Whole)> = (0..count).filter_map(|i| shiny.get(i * shiny.len() / count)).collect();
+    let series: Vec<Series<'_>> =
+        chosen.iter().map(|(name, whole)| Series { name: whole.legend(name), brdf: whole }).collect();
+    let left_out = match shiny.len() - count {
+        0 => String::new(),
+        more => format!(" {more} more materials with a highlight are not shown."),
+    };
+    Some(Plot {
+        title: "The scene's materials over the viewing angle".to_owned(),
+        caption: format!("On a logarithmic scale, light at 55°: the diffuse floor and the highlight on it.{left_out}"),
+        svg: plot::curve(&series, Setting { incidence: 55.0, cosine: false }),
+    })
+}
+
+/// Ten lines for the terminal.
+fn summary(facts: &Facts, page: &str) -> String {
+    let gaining: Vec<&str> =
+        facts.materials.iter().filter(|m| m.gains_energy).map(|material| material.name.as_str()).collect();
+    let energy = match gaining.len() {
+        0 => "all conserve energy".to_owned(),
+        count => format!("{count} gain energy: {}", gaining.iter().take(4).copied().collect::<Vec<_>>().join(", ")),
+    };
+    let more = if gaining.len() > 4 { ", …" } else { "" };
+    let mut text = String::new();
+    let scene = &facts.scene;
+    let _ = writeln!(text, "scene      {}: {} triangles in {} meshes", scene.source, scene.triangles, scene.meshes);
+    let names: Vec<&str> = facts.views.iter().map(|view| view.name.as_str()).collect();
+    let _ = writeln!(text, "views      {} in {:.1} s: {}", names.len(), facts.seconds.render, names.join(", "));
+    let _ = writeln!(text, "materials  {}; {energy}{more}", facts.materials.len());
+    for check in &facts.checks {
+        let verdict = if check.holds { "holds " } else { "BROKEN" };
+        let _ = writeln!(text, "{verdict}     {}", check.name);
+    }
+    let _ = writeln!(text, "warnings   {}", facts.warnings.len());
+    let _ = writeln!(text, "page       {page}  ({:.1} s in all)", facts.seconds.total);
+    text
+}

@@ -1,0 +1,127 @@
+//! The pictures of the report: every view, small enough together for one page.
+
+use crate::error::Failure;
+use crate::render;
+use lobe_scene::image::Display;
+use lobe_scene::{Image, Renderer, Scene, Settings, View};
+use serde::Serialize;
+use std::time::Instant;
+
+/// A view that was rendered.
+#[derive(Debug, Serialize)]
+pub(crate) struct Picture {
+    pub(crate) name: String,
+    pub(crate) caption: String,
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) samples: u32,
+    pub(crate) seconds: f64,
+    /// The PNG file.
+    #[serde(skip)]
+    pub(crate) png: Vec<u8>,
+}
+
+/// All pictures together, as PNG. The page is a third larger, by its base64, and stays below 5 MB.
+const MOST_BYTES: usize = 3_200_000;
+/// A page of a hundred views is no page.
+const MOST_VIEWS: usize = 16;
+
+/// Renders the views of a scene; a warning for what is left out.
+pub(crate) fn take(
+    scene: &Scene,
+    renderer: &Renderer<'_>,
+    (width, samples): (u32, u32),
+    built_in: bool,
+    quiet: bool,
+) -> Result<(Vec<Picture>, Vec<String>), Failure> {
+    let default = [View::default()];
+    let views = if scene.views.is_empty() { &default[..] } else { &scene.views[..] };
+    let mut images = Vec::new();
+    let mut pictures = Vec::new();
+    for (index, view) in views.iter().take(MOST_VIEWS).enumerate() {
+        let width = if index == 0 { width } else { width * 2 / 3 };
+        let settings = Settings { width, height: (width * 9).div_ceil(16), samples, ..Settings::default() };
+        let start = Instant::now();
+        let image = render::take(renderer, view, &settings, &view.name, quiet)?;
+        let seconds = start.elapsed().as_secs_f64();
+        let display = Display { exposure: view.exposure, ..Display::default() };
+        pictures.push(Picture {
+            name: view.name.clone(),
+            caption: caption(view, built_in),
+            width: settings.width,
+            height: settings.height,
+            samples,
+            seconds,
+            png: image.to_png(&display)?,
+        });
+        images.push((image, display));
+    }
+
+    let mut warnings = Vec::new();
+    if views.len() > MOST_VIEWS {
+        warnings
+            .push(format!("the report shows {MOST_VIEWS} of {} views; `lobe render --view` draws any", views.len()));
+    }
+    // The largest is halved until all fit.
+    while pictures.iter().map(|picture| picture.png.len()).sum::<usize>() > MOST_BYTES {
+        let largest = pictures.iter_mut().zip(&mut images).max_by_key(|(picture, _)| picture.png.len());
+        let Some((picture, (image, display))) = largest else { break };
+        if image.width() < 64 || image.height() < 64 {
+            break;
+        }
+        *image = halved(image)?;
+        picture.png = image.to_png(display)?;
+        (picture.width, picture.height) = (image.width(), image.height());
+    }
+    Ok((pictures, warnings))
+}
+
+/// The picture at half of the size: each pixel the mean of four.
+fn halved(image: &Image) -> Result<Image, Failure> {
+    let (width, height) = (image.width() / 2, image.height() / 2);
+    let mut half = Image::new(width.max(1), height.max(1))?;
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (2 * x, 2 * y)));
+    for (pixel, (x, y)) in half.pixels_mut().iter_mut().zip(places) {
+        let four = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)].map(|(x, y)| image.pixel(x, y).unwrap_or_default());
+        for (channel, out) in pixel.iter_mut().enumerate() {
+            *out = four.iter().map(|p| p[channel]).sum::<f32>() / 4.0;
+        }
+    }
+    Ok(half)
+}
+
+/// What is to be seen.
+fn caption(view: &View, built_in: bool) -> String {
+    let known = match view.name.as_str() {
+        "overview" => {
+            "All of the built-in scene: materials at the back, the row of exponents and the row of lights in front."
+        }
+        "exponent" => {
+            "The same sphere with exponents q = 1, 4, 16, 64, 256 and 1024, from left to right. The highlight shrinks; its \
+             coefficient, and so its brightness in the middle, stays: the lecture's highlight is not normalised."
+        }
+        "light" => {
+            "The same sphere lit from five directions. The highlight moves towards the light, halfway to the viewer; \
+             what is turned away has only the ambient term."
+        }
+        "materials" => {
+            "Diffuse, glossy and mirror-like materials side by side. Only the mirror needs rays that go on; all else is \
+             local: the light, the viewer and the normal."
+        }
+        "smooth-flat" => {
+            "One mesh, twice. Flat shading takes the normal of the triangle, smooth shading the normals of the corners, \
+             interpolated: the same triangles, until one looks at the outline."
+        }
+        _ => "",
+    };
+    if built_in && !known.is_empty() {
+        return known.to_owned();
+    }
+    let lights = match view.lights.as_ref().map(Vec::len) {
+        None => "the default light".to_owned(),
+        Some(1) => "1 light".to_owned(),
+        Some(count) => format!("{count} lights"),
+    };
+    let camera = if view.camera.is_some() { "its own camera" } else { "a camera that sees everything" };
+    format!("View `{}`: {lights}, {camera}.", view.name)
+}

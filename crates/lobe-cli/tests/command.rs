@@ -1,0 +1,340 @@
+//! Runs the program as a user would: what it prints, what it leaves on the disk, and with which exit code it ends.
+
+use lobe::{BlinnPhong, Brdf, Lambert, Rgb, Shininess, Vec3};
+use std::fs;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// What a run left behind.
+struct Run {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+/// Runs `lobe` in a folder with a text on its standard input.
+fn lobe_in(folder: &Path, arguments: &[&str], input: &[u8]) -> Run {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_lobe"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let mut stdin = child.stdin.take().expect("a pipe");
+    let input = input.to_vec();
+    // Beside the reading of its output, or both would wait. A program that stops reading is no error here.
+    let writer = std::thread::spawn(move || drop(stdin.write_all(&input)));
+    let output = child.wait_with_output().expect("the program ends");
+    writer.join().expect("the writer ends");
+    Run {
+        code: output.status.code(),
+        out: String::from_utf8(output.stdout).expect("text"),
+        err: String::from_utf8(output.stderr).expect("text"),
+    }
+}
+
+fn lobe(arguments: &[&str], input: &str) -> Run {
+    lobe_in(Path::new("."), arguments, input.as_bytes())
+}
+
+/// It fails with this exit code and exactly this one line.
+#[track_caller]
+fn fails(run: &Run, code: i32, message: &str) {
+    assert_eq!(run.err, format!("error: {message}\n"));
+    assert_eq!(run.code, Some(code));
+}
+
+#[test]
+fn eval_prints_the_bits_of_the_library() {
+    let plastic = Lambert::new(Rgb::new(0.5_f32, 0.05, 0.05)) + BlinnPhong::new(Rgb::splat(0.04), Shininess(80.0));
+    let exact = Lambert::new(Rgb::new(0.5_f64, 0.05, 0.05)) + BlinnPhong::new(Rgb::splat(0.04), Shininess(80.0));
+    let pairs = [
+        [0.6_f32, 0.0, 0.8, -0.6, 0.0, 0.8],
+        [0.0, 0.0, 1.0, 0.0, 0.6, 0.8],
+        [0.1, 0.2, 0.97467943, 0.48, -0.64, 0.6],
+        [0.99999, 0.0, 0.0044721, 0.0, 0.0, 1.0],
+        [0.0, 0.0, -1.0, 0.0, 0.0, 1.0],
+    ];
+    let csv: String = pairs.iter().map(|p| p.map(|x| format!("{x:?}")).join(",") + "\n").collect();
+    let single = lobe(&["eval", "--brdf", "red-plastic"], &csv);
+    assert_eq!((single.err.as_str(), single.code), ("", Some(0)));
+    let double = lobe(&["eval", "--brdf", "red-plastic", "--number", "f64"], &csv);
+    assert_eq!(single.out.lines().count(), pairs.len());
+    for ([lx, ly, lz, vx, vy, vz], (line, line64)) in pairs.into_iter().zip(single.out.lines().zip(double.out.lines()))
+    {
+        let (l, v) = (Vec3::new(lx, ly, lz), Vec3::new(vx, vy, vz));
+        let read: Vec<f32> = line.split(',').map(|x| x.parse().expect("a number")).collect();
+        assert_eq!(read, <[f32; 3]>::from(plastic.eval(l, v)));
+        // The decimal text, read as f64, is not the f32: as the program does, so do we.
+        let wide = |x: f32| format!("{x:?}").parse::<f64>().expect("a number");
+        let read: Vec<f64> = line64.split(',').map(|x| x.parse().expect("a number")).collect();
+        assert_eq!(read, <[f64; 3]>::from(exact.eval(l.map(wide), v.map(wide))));
+    }
+}
+
+#[test]
+fn eval_takes_comments_headers_and_json() {
+    let input = "# pairs\nlx,ly,lz,vx,vy,vz\n\n 0, 0, 1, 0, 0, 1 \r\n0,0,1,0,0,1";
+    let run = lobe(&["eval", "--brdf", r#"{"lobes": [{"model": "lambert", "albedo": 1}]}"#], input);
+    assert_eq!(run.out, "0.31830987,0.31830987,0.31830987\n".repeat(2));
+    let json = lobe(&["eval", "--brdf", "paper", "--json", "--normalize"], "0,0,7,0,0,0.1\n");
+    assert_eq!(json.out, "[0.2546479,0.2546479,0.2546479]\n");
+    assert_eq!((run.code, json.code), (Some(0), Some(0)));
+}
+
+#[test]
+fn eval_names_the_line_and_keeps_what_was_right() {
+    let good = "0,0,1,0,0,1\n";
+    for (line, message) in [
+        ("0,0,1,0,0", "5 numbers; a line has six numbers, lx,ly,lz,vx,vy,vz"),
+        ("0,0,1,0,0,one", "`one` is not a number; a line has six numbers, lx,ly,lz,vx,vy,vz"),
+        ("0,0,1,0,nan,1", "`nan` is not a finite number; a line has six numbers, lx,ly,lz,vx,vy,vz"),
+        ("0,0,0,0,0,1", "direction l has length 0; a direction has unit length"),
+        ("0,0,1,0,0,1.5", "direction v has length 1.5; give it unit length, or use --normalize"),
+    ] {
+        let run = lobe(&["eval", "--brdf", "paper"], &format!("{good}# a comment\n{line}\n{good}"));
+        fails(&run, 3, &format!("<stdin>:3: {message}"));
+        assert_eq!(run.out, "0.2546479,0.2546479,0.2546479\n");
+    }
+    let run = lobe_in(Path::new("."), &["eval"], &[0xff, 0xfe, b'\n']);
+    fails(&run, 3, "<stdin>:1: this is not text; a line has six numbers, lx,ly,lz,vx,vy,vz");
+    let run = lobe_in(Path::new("."), &["eval"], &vec![b' '; 100_000]);
+    fails(&run, 3, "<stdin>:1: this line is longer than 8192 bytes; a line has six numbers, lx,ly,lz,vx,vy,vz");
+}
+
+#[test]
+fn wrong_brdfs_say_what_would_be_right() {
+    let known = "the models are lambert, phong, blinn-phong, lecture-phong, lecture-blinn-torrance";
+    let run = lobe(&["eval", "--brdf", r#"{"lobes": [{"model": "cook"}]}"#], "");
+    fails(&run, 3, &format!("--brdf:1:27: lobes[0]: unknown model `cook`; {known}"));
+    let run = lobe(&["eval", "--brdf", r#"{"lobes": [{"model": "phong", "ks": 1, "q": 2000000}]}"#], "");
+    fails(&run, 3, "--brdf:1:51: lobes[0]: `q` is 2000000.0; an exponent from 0 to 1000000");
+    let run = lobe(&["eval", "--brdf", "@no/such.json"], "");
+    let right = "after @ stands a file with a BRDF in JSON";
+    fails(&run, 3, &format!("no/such.json: cannot read this file: no such file or directory; {right}"));
+    let run = lobe(&["plot", "--brdf", "gold-plated"], "");
+    assert_eq!(run.code, Some(2));
+    assert!(run.err.starts_with("error: unknown preset `gold-plated` for --brdf; the presets are paper, red-plastic"));
+    let run = lobe(&["eval", "--number", "half"], "");
+    assert_eq!(run.code, Some(2));
+    assert!(run.err.contains("planned, but not there yet; use f32 or f64"));
+    let run = lobe(&["eval", "--brdf", r#"{"lobes": [{"model": "lambert", "albedo": 2}]}"#], "");
+    assert_eq!(run.code, Some(0), "above 1 is only a warning");
+    assert!(run.err.starts_with("warning: "));
+}
+
+#[test]
+fn a_million_pairs_in_time() {
+    let mut csv = String::new();
+    for i in 0..1_000_000_u32 {
+        let (a, b) = (f64::from(i % 1000) / 1000.0, f64::from(i / 1000) / 1000.0);
+        csv += &format!("{:.6},0,{:.6},0,{:.6},{:.6}\n", a.sin(), a.cos(), b.sin(), b.cos());
+    }
+    let start = Instant::now();
+    let run = lobe(&["eval", "--brdf", "glossy"], &csv);
+    // Three seconds is the promise of an optimised build on an idle machine; here neither is sure.
+    assert!(start.elapsed() < Duration::from_secs(30));
+    assert_eq!((run.out.lines().count(), run.code), (1_000_000, Some(0)));
+}
+
+#[test]
+fn a_reader_that_has_seen_enough_is_no_error() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_lobe"))
+        .args(["eval", "--brdf", "paper"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    drop(child.stdout.take());
+    let mut stdin = child.stdin.take().expect("a pipe");
+    let writer = std::thread::spawn(move || drop(stdin.write_all("0,0,1,0,0,1\n".repeat(100_000).as_bytes())));
+    let output = child.wait_with_output().expect("the program ends");
+    writer.join().expect("the writer ends");
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(output.stderr, b"");
+}
+
+#[test]
+fn plots_are_written_whole_and_old_ones_survive_an_error() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for kind in ["polar", "compare", "surface", "curve"] {
+        let name = format!("{kind}.svg");
+        let run = lobe_in(folder.path(), &["plot", "--kind", kind, "--incidence", "60", "-o", &name], b"");
+        assert_eq!((run.err.as_str(), run.code), ("", Some(0)));
+        let svg = fs::read_to_string(folder.path().join(&name)).expect("a file");
+        assert!(svg.ends_with("</svg>\n") && !svg.contains("NaN") && svg.len() > 5000, "{kind}");
+        assert!(svg.contains("prefers-color-scheme:dark"));
+    }
+    let old = fs::read(folder.path().join("polar.svg")).expect("a file");
+    let run = lobe_in(folder.path(), &["plot", "--brdf", "{", "-o", "polar.svg"], b"");
+    assert_eq!(run.code, Some(3));
+    assert_eq!(fs::read(folder.path().join("polar.svg")).expect("a file"), old);
+    let run = lobe_in(folder.path(), &["plot", "-o", "no/folder/a.svg"], b"");
+    let right = "name a file in a folder that exists and can be written to";
+    fails(&run, 4, &format!("no/folder/a.svg: cannot write this: no such file or directory; {right}"));
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 4, "no temporary file is left");
+}
+
+#[test]
+fn extreme_lobes_can_be_drawn() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let brdfs = [
+        r#"{"lobes": []}"#,
+        r#"{"lobes": [{"model": "phong", "ks": 3e38, "q": 1e6}]}"#,
+        r#"{"lobes": [{"model": "lecture-phong", "ks": 0, "q": 0}]}"#,
+        r#"{"name": "</svg><script>\u0000*_{", "lobes": [{"model": "lambert", "albedo": 1e-300}]}"#,
+    ];
+    for brdf in brdfs {
+        for kind in ["polar", "surface", "curve"] {
+            for incidence in ["0", "89.9"] {
+                let arguments = ["plot", "--kind", kind, "--brdf", brdf, "--incidence", incidence, "-o", "a.svg", "-q"];
+                let run = lobe_in(folder.path(), &arguments, b"");
+                assert_eq!((run.err.as_str(), run.code), ("", Some(0)), "{kind} {brdf}");
+                let svg = fs::read_to_string(folder.path().join("a.svg")).expect("a file");
+                assert!(!svg.contains("NaN") && !svg.contains("inf") && !svg.contains("<script"), "{kind} {brdf}");
+            }
+        }
+    }
+}
+
+#[test]
+fn sweep_says_whether_the_bounds_hold() {
+    let run = lobe(&["sweep", "recip", "--stride", "1000003", "--json"], "");
+    assert_eq!(run.code, Some(0));
+    let found: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
+    assert_eq!(found[0]["function"], "recip");
+    assert_eq!(found[0]["holds"], true);
+    let run = lobe(&["sweep", "tan"], "");
+    fails(&run, 2, "unknown function `tan`; the functions are exp2, log2, log2_1p, sin, cos, sqrt, recip");
+}
+
+#[test]
+fn help_and_completions_are_there() {
+    let help = lobe(&["--help"], "");
+    assert!(help.out.contains("Exit codes:") && help.code == Some(0));
+    for shell in ["bash", "zsh", "fish"] {
+        let run = lobe(&["completions", shell], "");
+        assert!(run.out.contains("lobe") && run.code == Some(0), "{shell}");
+    }
+    let run = lobe(&["eval", "--list-presets", "--json"], "");
+    let presets: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
+    assert_eq!(presets["paper"]["lobes"][0]["model"], "lambert");
+    assert_eq!(lobe(&["shine"], "").code, Some(2));
+}
+
+/// A floor and a material with a highlight that gains energy.
+fn write_scene(folder: &Path) {
+    let obj = "mtllib s.mtl\nusemtl glow\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 4 3 2 1\n";
+    let mtl = "newmtl glow\nKd 0.9 0.2 0.1\nKs 0.8 0.8 0.8\nNs 2\nillum 2\n";
+    fs::write(folder.join("s.obj"), obj).expect("written");
+    fs::write(folder.join("s.mtl"), mtl).expect("written");
+}
+
+#[test]
+fn render_writes_a_picture() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write_scene(folder.path());
+    for (name, start) in [("a.png", &b"\x89PNG"[..]), ("a.exr", b"\x76\x2f\x31\x01"), ("a.pfm", b"PF\n")] {
+        let arguments = ["render", "s.obj", "--width", "32", "--height", "18", "-o", name];
+        let run = lobe_in(folder.path(), &arguments, b"");
+        assert_eq!(run.code, Some(0), "{}", run.err);
+        assert!(run.out.starts_with(&format!("{name}: view `default`, 32x18, 4 samples, 2 triangles")), "{}", run.out);
+        assert!(fs::read(folder.path().join(name)).expect("a file").starts_with(start));
+    }
+    let run = lobe_in(folder.path(), &["render", "s.obj", "-o", "a.jpg"], b"");
+    fails(&run, 2, "a.jpg: unknown kind of file; pictures end in .png, .exr or .pfm");
+    let run = lobe_in(folder.path(), &["render", "s.obj", "--view", "top", "-o", "a.png"], b"");
+    fails(&run, 2, "the view is `top`; this scene has default");
+}
+
+#[test]
+fn wrong_scenes_name_file_and_line_and_leave_old_pictures_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write_scene(folder.path());
+    fs::write(folder.path().join("old.png"), "an old picture").expect("written");
+    let run = |scene: &str| lobe_in(folder.path(), &["render", scene, "-o", "old.png"], b"");
+
+    let missing = run("none.obj");
+    fails(
+        &missing,
+        3,
+        "none.obj: cannot read this file: no such file or directory; give a file that is there and can be read",
+    );
+    fs::write(folder.path().join("face.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n").expect("written");
+    let face = run("face.obj");
+    assert!(face.err.starts_with("error: face.obj:4: ") && face.err.contains("; "), "{}", face.err);
+    for wrong in ["Ns -5", "Kd nan 0 0"] {
+        fs::write(folder.path().join("s.mtl"), format!("newmtl glow\n{wrong}\n")).expect("written");
+        let mtl = run("s.obj");
+        assert!(mtl.err.starts_with("error: s.mtl:2: ") && mtl.err.contains("; "), "{}", mtl.err);
+        assert_eq!(mtl.code, Some(3));
+    }
+    fs::write(folder.path().join("a.json"), "{\"obj\": \"s.obj\",\n \"lamps\": []}").expect("written");
+    let json = run("a.json");
+    assert!(json.err.starts_with("error: a.json:2:8: unknown field `lamps`"), "{}", json.err);
+    for run in [missing, face, json] {
+        assert_eq!((run.code, run.err.lines().count()), (Some(3), 1), "{}", run.err);
+    }
+    assert_eq!(fs::read(folder.path().join("old.png")).expect("a file"), b"an old picture");
+}
+
+#[test]
+fn a_report_is_one_page_that_needs_nothing_else() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write_scene(folder.path());
+    let arguments = ["report", "s.obj", "-o", "out", "--width", "64", "--samples", "1"];
+    let run = lobe_in(folder.path(), &arguments, b"");
+    assert_eq!((run.err.as_str(), run.code), ("", Some(0)));
+    assert_eq!(run.out.lines().count(), 10, "{}", run.out);
+
+    let page = fs::read_to_string(folder.path().join("out/index.html")).expect("a page");
+    let images: Vec<&str> = page.split("<img").skip(1).collect();
+    assert_eq!(images.len(), 1);
+    assert!(
+        images
+            .iter()
+            .all(|image| image.split('>').next().is_some_and(|tag| tag.contains("src=\"data:image/png;base64,")))
+    );
+    for resource in ["src=\"http", "href=\"http", "url(", "@import", "<script", "<link"] {
+        assert!(!page.contains(resource), "{resource}");
+    }
+    assert!(!page.contains("NaN<") && page.ends_with("</html>\n"));
+    // A tag that is opened is closed.
+    for tag in ["section", "div", "table", "figure", "svg", "tr", "td", "p", "ul", "g"] {
+        let opened = page.matches(&format!("<{tag} ")).count() + page.matches(&format!("<{tag}>")).count();
+        assert_eq!(opened, page.matches(&format!("</{tag}>")).count(), "{tag}");
+    }
+    assert!(page.contains("gains energy"));
+
+    let facts = fs::read_to_string(folder.path().join("out/report.json")).expect("a file");
+    let facts: serde_json::Value = serde_json::from_str(&facts).expect("JSON");
+    assert_eq!(facts["materials"][0]["gains_energy"], true);
+    assert_eq!(facts["materials"][0]["albedo"].as_array().map(Vec::len), Some(3));
+    let checks = facts["checks"].as_array().expect("a list");
+    assert!(checks.len() == 5 && checks.iter().all(|check| check["holds"] == true), "{checks:#?}");
+    assert_eq!(facts["command"], "lobe report s.obj -o out --samples 1 --width 64");
+
+    // A run that fails leaves it as it is.
+    let old = fs::read(folder.path().join("out/index.html")).expect("a page");
+    fs::write(folder.path().join("s.mtl"), "newmtl glow\nNs -1\n").expect("written");
+    assert_eq!(lobe_in(folder.path(), &arguments, b"").code, Some(3));
+    assert_eq!(fs::read(folder.path().join("out/index.html")).expect("a page"), old);
+    assert_eq!(fs::read_dir(folder.path().join("out")).expect("a folder").count(), 2);
+}
+
+#[test]
+fn a_report_that_cannot_be_written_says_so_before_the_work() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write_scene(folder.path());
+    fs::write(folder.path().join("file"), "not a folder").expect("written");
+    let right = "name a folder that can be made and written to with -o";
+    let run = lobe_in(folder.path(), &["report", "s.obj", "-o", "file"], b"");
+    fails(&run, 4, &format!("file: cannot write this: it is a file, not a folder; {right}"));
+    let run = lobe_in(folder.path(), &["report", "s.obj", "-o", "file/below"], b"");
+    fails(&run, 4, &format!("file/below: cannot write this: not a directory; {right}"));
+}
