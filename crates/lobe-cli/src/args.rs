@@ -29,7 +29,7 @@ Examples:
 
 Exit codes:
   0  all is well
-  1  a check failed (`sweep`: a bound is broken)
+  1  a check failed: a promise of `report` or a bound of `sweep` is broken
   2  the command line is wrong
   3  a file or a stream that was given is wrong
   4  something cannot be written";

@@ -65,3 +65,8 @@ pub use frame::{Frame, interpolate_normal};
 pub use light::{AmbientLight, DirectionalLight, Incident, PointLight};
 pub use number::{Mask, Real};
 pub use vector::{Vec3, halfway, mirror, reflect};
+
+/// The examples of the README run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

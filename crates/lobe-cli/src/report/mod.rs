@@ -119,12 +119,15 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
     output::write_file(&args.output.join("index.html"), page.as_bytes())?;
     output::write_file(&args.output.join("report.json"), format!("{facts_json}\n").as_bytes())?;
     if json {
-        return output::print(format!("{facts_json}\n").as_bytes());
+        output::print(format!("{facts_json}\n").as_bytes())?;
+    } else if !quiet {
+        output::print(summary(&facts, &args.output.join("index.html").display().to_string()).as_bytes())?;
     }
-    if quiet {
-        return Ok(());
+    // The page is written either way; a material that gains energy is the scene's affair, a broken promise is ours.
+    match facts.checks.iter().find(|check| !check.holds) {
+        None => Ok(()),
+        Some(check) => Err(Failure::Check(format!("{}: this promise is broken: {}", check.name, check.promise))),
     }
-    output::print(summary(&facts, &args.output.join("index.html").display().to_string()).as_bytes())
 }
 
 /// The command line that makes the same report.
@@ -241,7 +244,8 @@ fn summary(facts: &Facts, page: &str) -> String {
     let more = if gaining.len() > 4 { ", …" } else { "" };
     let mut text = String::new();
     let scene = &facts.scene;
-    let _ = writeln!(text, "scene      {}: {} triangles in {} meshes", scene.source, scene.triangles, scene.meshes);
+    let meshes = if scene.meshes == 1 { "mesh" } else { "meshes" };
+    let _ = writeln!(text, "scene      {}: {} triangles in {} {meshes}", scene.source, scene.triangles, scene.meshes);
     let names: Vec<&str> = facts.views.iter().map(|view| view.name.as_str()).collect();
     let _ = writeln!(text, "views      {} in {:.1} s: {}", names.len(), facts.seconds.render, names.join(", "));
     let _ = writeln!(text, "materials  {}; {energy}{more}", facts.materials.len());

@@ -12,7 +12,7 @@ use core::f64::consts::TAU;
 /// Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975; the BRDF and its normalisation: Lewis,
 /// "Making Shaders More Physically Plausible", 1993, and Lafortune and Willems, "Using the Modified Phong Reflectance
 /// Model for Physically Based Rendering", 1994, equation 11. The factor makes the albedo at normal incidence exactly
-/// `ks`; at any other angle part of the lobe is below the horizon and it is less.
+/// `ks`; at any other angle `θ` it is less, for a sharp lobe `ks cos θ`, because the lobe has no `1/(n·l)` in it.
 ///
 /// Reciprocal to the last bit. Domain: `ks ∈ [0, 1]`, `q ∈ [0, 10⁶]`. Outside it the formula goes on as it stands;
 /// for `q < −2` the factor is negative.
