@@ -24,9 +24,33 @@ pub struct Albedo {
     pub error: f64,
 }
 
+/// A lobe with its directions exchanged: `f(l, v)` becomes `f(v, l)`. For a reciprocal lobe, the lobe itself.
+///
+/// The directional albedo of `Exchanged(lobe)` at `l` is the part of the light from `l` that is reflected anywhere.
+/// The lecture's highlights, which are not reciprocal, may conserve energy in one sense and gain it in the other.
+///
+/// ```
+/// use lobe::{Rgb, Shininess, Vec3, illumination::PhongHighlight};
+/// use lobe_energy::{Exchanged, directional_albedo};
+///
+/// let highlight = PhongHighlight::new(Rgb::splat(1.0), Shininess(8.0));
+/// let grazing = Vec3::new((1.0_f64 - 0.01 * 0.01).sqrt(), 0.0, 0.01);
+/// assert!(directional_albedo(&highlight, grazing).value.g < 0.2);
+/// assert!(directional_albedo(&Exchanged(&highlight), grazing).value.g > 2.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exchanged<B>(pub B);
+
+impl<R: Real, B: Brdf<R>> Brdf<R> for Exchanged<B> {
+    fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.0.eval(v, l)
+    }
+}
+
 /// The directional albedo `E(v) = ∫ f_r(l, v) (n·l) dω_l` over the upper hemisphere.
 ///
-/// For a reciprocal lobe it is also the part of the light from `v` that is reflected anywhere.
+/// For a reciprocal lobe it is also the part of the light from `v` that is reflected anywhere; for one that is not,
+/// that is the albedo of [`Exchanged`].
 ///
 /// `v` is a unit vector in the local frame, `v.z > 0`; from below the horizon the albedo is 0.
 ///

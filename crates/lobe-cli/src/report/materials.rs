@@ -1,7 +1,7 @@
 //! The scene's materials: what they are made of, and how much light they reflect.
 
 use lobe::{Brdf, Rgb, Vec3};
-use lobe_energy::directional_albedo;
+use lobe_energy::{Exchanged, directional_albedo};
 use lobe_scene::{LobeRecord, Material};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -16,10 +16,11 @@ pub(crate) struct MaterialFacts {
     pub(crate) dissolve: f32,
     /// The directional albedo, with the mirror, at [`SHOWN`] degrees. Empty if a lobe cannot be integrated.
     pub(crate) albedo: Vec<[f64; 3]>,
-    /// The highest albedo of a channel, at any of the angles tried.
+    /// The highest albedo of a channel at any of the angles tried: of what is seen in a white world, or of what is
+    /// reflected of the light from one direction. For reciprocal lobes the two are the same.
     pub(crate) highest: Option<f64>,
-    /// The angle at which it is.
-    pub(crate) highest_at: f64,
+    /// Where it is, in words: `seen from 45°`, or `light from 89°`.
+    pub(crate) highest_at: String,
     pub(crate) gains_energy: bool,
     /// The verdict in words, with what would mend it.
     pub(crate) verdict: String,
@@ -100,16 +101,19 @@ fn one(material: &Material) -> MaterialFacts {
     let whole = Whole::of(material);
     let mirror: Rgb<f64> = material.mirror.ks().map(f64::from);
     let known = whole.0.iter().all(|lobe| lobe.reference.is_some());
-    let albedo = |angle: f64| -> [f64; 3] {
-        let (sin, cos) = angle.to_radians().sin_cos();
-        (directional_albedo(&whole, Vec3::new(sin, 0.0, cos)).value + mirror).into()
+    let at_all_angles = |brdf: &dyn Brdf<f64>| -> Vec<[f64; 3]> {
+        let directions = TRIED.map(|angle| angle.to_radians().sin_cos()).map(|(sin, cos)| Vec3::new(sin, 0.0, cos));
+        let albedos = directions.map(|v| (directional_albedo(brdf, v).value + mirror).into());
+        if known { albedos.into() } else { Vec::new() }
     };
-    let all: Vec<[f64; 3]> = if known { TRIED.iter().map(|&angle| albedo(angle)).collect() } else { Vec::new() };
-    let highest = TRIED
-        .iter()
-        .zip(&all)
-        .map(|(&angle, rgb)| (angle, rgb.iter().fold(0.0_f64, |max, &x| max.max(x))))
-        .fold((0.0, 0.0), |best, next| if next.1 > best.1 { next } else { best });
+    let seen = at_all_angles(&whole);
+    let reflected = at_all_angles(&Exchanged(&whole));
+    let highest = [("seen from", &seen), ("light from", &reflected)]
+        .into_iter()
+        .flat_map(|(side, all)| TRIED.iter().zip(all).map(move |(angle, rgb)| (side, angle, rgb)))
+        .map(|(side, angle, rgb)| (format!("{side} {angle}°"), rgb.iter().fold(0.0_f64, |max, &x| max.max(x))))
+        // The first of equals, but for the rounding of the quadrature.
+        .fold((String::new(), 0.0), |best, next| if next.1 > best.1 + 1e-6 { next } else { best });
 
     let mut lobes: Vec<LobeFacts> = whole
         .0
@@ -131,16 +135,16 @@ fn one(material: &Material) -> MaterialFacts {
         ambient: material.ambient.into(),
         emission: material.emission.into(),
         dissolve: material.dissolve,
-        albedo: all.iter().take(SHOWN.len()).copied().collect(),
+        albedo: seen.iter().take(SHOWN.len()).copied().collect(),
         highest: known.then_some(highest.1),
-        highest_at: highest.0,
         gains_energy,
-        verdict: verdict(known, highest, gains_energy, &lobes),
+        verdict: verdict(known, &highest, gains_energy, &lobes),
+        highest_at: highest.0,
         lobes,
     }
 }
 
-fn verdict(known: bool, (angle, highest): (f64, f64), gains_energy: bool, lobes: &[LobeFacts]) -> String {
+fn verdict(known: bool, (place, highest): &(String, f64), gains_energy: bool, lobes: &[LobeFacts]) -> String {
     if !known {
         return "not known: a lobe cannot be integrated".to_owned();
     }
@@ -152,9 +156,16 @@ fn verdict(known: bool, (angle, highest): (f64, f64), gains_energy: bool, lobes:
     }
     let lecture = lobes.iter().any(|lobe| lobe.model.starts_with("lecture-"));
     let mirrored = lobes.iter().any(|lobe| lobe.model == "mirror");
+    if lecture && !mirrored && place.starts_with("light") {
+        return format!(
+            "gains energy: {:.0} %, {place}: the lecture's highlight has no cosine, so towards grazing light it gains without \
+             bound. Render with --shading normalized-blinn-phong and Kd + Ks at most 1",
+            highest * 100.0
+        );
+    }
     // Rounded down, so that the factor that is named does mend it.
     let factor = (99.9 / highest).floor() / 100.0;
-    let mut text = format!("gains energy: {:.1} % at {angle}°. Scale Kd and Ks by {factor:.2}", highest * 100.0);
+    let mut text = format!("gains energy: {:.1} %, {place}. Scale Kd and Ks by {factor:.2}", highest * 100.0);
     match (lecture, mirrored) {
         (_, true) => text += ", or lower Ks: it counts twice, for the mirror and for the highlight",
         (true, false) => text += ", or render with --shading normalized-blinn-phong and Kd + Ks at most 1",

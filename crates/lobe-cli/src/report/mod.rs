@@ -186,7 +186,7 @@ fn plots(scene: &Scene) -> Vec<Plot> {
         plots.push(Plot {
             title: "The same two as BRDFs".to_owned(),
             caption:
-                "Normalised to reflect the same part of the light, the wider lobe is the lower one. Values in sr⁻¹."
+                "Normalised to reflect the same part of the light at normal incidence, the wider lobe is the lower one. Values in sr⁻¹."
                     .to_owned(),
             svg: plot::polar(&series, setting),
         });

@@ -165,9 +165,10 @@ fn lobes(page: &mut String, plots: &[Plot]) {
 
 fn materials(page: &mut String, materials: &[MaterialFacts]) {
     page.push_str(
-        "<section id=\"materials\">\n<h2>The materials</h2>\n<p>The directional albedo is the part of the light from that \
-         angle, measured from the normal, that is reflected anywhere; the largest of red, green and blue is shown. Above 1 a \
-         surface sends out more than it receives.</p>\n<div class=\"scroll\"><table>\n<thead><tr><th>material</th>\
+        "<section id=\"materials\">\n<h2>The materials</h2>\n<p>The directional albedo is what one sees of a uniform white world \
+         from that angle, measured from the normal; the largest of red, green and blue is shown. Above 1 a surface sends out \
+         more than it receives. The verdict also looks at it the other way round, at the part of the light from one direction \
+         that is reflected anywhere: for a BRDF that is the same, for the lecture's highlights it is not.</p>\n<div class=\"scroll\"><table>\n<thead><tr><th>material</th>\
          <th>lobes and parameters</th>",
     );
     for angle in SHOWN {
