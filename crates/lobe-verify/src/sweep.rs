@@ -92,11 +92,11 @@ pub fn sweep(function: &Function, stride: u32, progress: &(dyn Fn(u64) + Sync)) 
 }
 
 /// The worst error over the neighbourhoods of every value at which something changes: zeros, ends of ranges, powers of
-/// two, halves and multiples of π/2.
+/// two, halves and multiples of π/4.
 pub fn sweep_boundaries(function: &Function) -> Worst {
     let powers = (-149..=127).map(|e| libm::ldexp(1.0, e) as f32);
     let steps = (0..=512).map(|i| i as f32 * 0.5);
-    let turns = (1..=400).map(|k| (f64::from(k) * std::f64::consts::FRAC_PI_2) as f32);
+    let turns = (1..=700).map(|k| (f64::from(k) * std::f64::consts::FRAC_PI_4) as f32);
     let special = [0.0, f32::INFINITY, f32::NAN, f32::MAX, f32::MIN_POSITIVE];
     powers
         .chain(steps)

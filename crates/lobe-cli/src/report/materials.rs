@@ -1,7 +1,7 @@
 //! The scene's materials: what they are made of, and how much light they reflect.
 
 use lobe::{Brdf, Rgb, Vec3};
-use lobe_energy::{Exchanged, directional_albedo};
+use lobe_energy::{Albedo, Exchanged, directional_albedo};
 use lobe_scene::{LobeRecord, Material};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -38,6 +38,9 @@ pub(crate) struct LobeFacts {
 pub(crate) const SHOWN: [f64; 3] = [0.0, 45.0, 85.0];
 /// The angles at which the verdict looks, those of the table first.
 const TRIED: [f64; 7] = [0.0, 45.0, 85.0, 25.0, 65.0, 75.0, 89.0];
+
+/// The largest error of an albedo that is shown: four digits are.
+const QUADRATURE_ERROR: f64 = 1e-5;
 
 /// The lobes of a material as one BRDF.
 pub(crate) struct Whole(Vec<LobeRecord>);
@@ -100,14 +103,19 @@ pub(crate) fn facts(materials: &[Material], done: &(dyn Fn() + Sync)) -> Vec<Mat
 fn one(material: &Material) -> MaterialFacts {
     let whole = Whole::of(material);
     let mirror: Rgb<f64> = material.mirror.ks().map(f64::from);
-    let known = whole.0.iter().all(|lobe| lobe.reference.is_some());
+    let can_be_integrated = whole.0.iter().all(|lobe| lobe.reference.is_some());
     let at_all_angles = |brdf: &dyn Brdf<f64>| -> Vec<[f64; 3]> {
         let directions = TRIED.map(|angle| angle.to_radians().sin_cos()).map(|(sin, cos)| Vec3::new(sin, 0.0, cos));
-        let albedos = directions.map(|v| (directional_albedo(brdf, v).value + mirror).into());
-        if known { albedos.into() } else { Vec::new() }
+        let albedos: Vec<Albedo> = directions.iter().map(|&v| directional_albedo(brdf, v)).collect();
+        // One that has not converged, or is NaN, is no figure to show.
+        let good = albedos.iter().all(|albedo| albedo.error <= QUADRATURE_ERROR);
+        if good { albedos.iter().map(|albedo| (albedo.value + mirror).into()).collect() } else { Vec::new() }
     };
-    let seen = at_all_angles(&whole);
-    let reflected = at_all_angles(&Exchanged(&whole));
+    let (seen, reflected) = match can_be_integrated {
+        true => (at_all_angles(&whole), at_all_angles(&Exchanged(&whole))),
+        false => (Vec::new(), Vec::new()),
+    };
+    let known = !seen.is_empty() && !reflected.is_empty();
     let highest = [("seen from", &seen), ("light from", &reflected)]
         .into_iter()
         .flat_map(|(side, all)| TRIED.iter().zip(all).map(move |(angle, rgb)| (side, angle, rgb)))
@@ -128,8 +136,8 @@ fn one(material: &Material) -> MaterialFacts {
         let reflectance = Some(material.mirror.ks().into());
         lobes.push(LobeFacts { model: "mirror".to_owned(), reflectance, exponent: None });
     }
-    // The tolerance is that of the quadrature, and of coefficients that were rounded to f32.
-    let gains_energy = highest.1 > 1.0 + 1e-5;
+    // The tolerance is that of the quadrature; coefficients that were rounded to f32 are below it.
+    let gains_energy = highest.1 > 1.0 + QUADRATURE_ERROR;
     MaterialFacts {
         name: material.name.clone(),
         ambient: material.ambient.into(),
@@ -146,15 +154,21 @@ fn one(material: &Material) -> MaterialFacts {
 
 fn verdict(known: bool, (place, highest): &(String, f64), gains_energy: bool, lobes: &[LobeFacts]) -> String {
     if !known {
-        return "not known: a lobe cannot be integrated".to_owned();
+        return "not known: a lobe cannot be integrated, or its integral does not converge".to_owned();
     }
     if lobes.is_empty() {
         return "reflects no light".to_owned();
     }
+    let lecture = lobes.iter().any(|lobe| lobe.model.starts_with("lecture-") && lobe.reflectance != Some([0.0; 3]));
+    if !gains_energy && lecture {
+        return format!(
+            "at most {:.1} % up to 89°; nearer to grazing light the lecture's highlight, which has no cosine, gains without bound",
+            highest * 100.0
+        );
+    }
     if !gains_energy {
         return format!("conserves energy: reflects at most {:.1} %", highest * 100.0);
     }
-    let lecture = lobes.iter().any(|lobe| lobe.model.starts_with("lecture-"));
     let mirrored = lobes.iter().any(|lobe| lobe.model == "mirror");
     if lecture && !mirrored && place.starts_with("light") {
         return format!(

@@ -15,7 +15,7 @@ use core::marker::PhantomData;
 /// | `N` | factor | albedo at normal incidence |
 /// |---|---|---|
 /// | [`NormalIncidence`] (default) | `(q+2)(q+4) / (8π (2^(−q/2) + q))` | exactly `ks` |
-/// | [`CommonNormalization`] | `(q+8) / 8π` | up to 1.075 `ks`, at q = 8: it gains energy |
+/// | [`CommonNormalization`] | `(q+8) / 8π` | up to 1.0752 `ks`: it gains energy |
 ///
 /// Reciprocal to the last bit. Domain: `ks ∈ [0, 1]`, `q ∈ [0, 10⁶]`.
 ///
@@ -48,16 +48,16 @@ pub trait Normalization {
 
 /// `(q+2)(q+4) / (8π (2^(−q/2) + q))`: the albedo at normal incidence is exactly `ks`.
 ///
-/// It conserves energy there and nearly so elsewhere: for `q ≥ 0` the directional albedo stays within `ks` at every
-/// angle (`docs/numerics.md` has the measured curve). Akenine-Möller, Haines, Hoffman, *Real-Time Rendering*, 3rd
-/// edition, 2008, section 7.6, after Sloan.
+/// It never gains: for `q ≥ 0` the directional albedo stays within `ks` at every angle. Away from the normal it loses, for
+/// a sharp lobe as `cos² θ` (`docs/numerics.md` has the measured table). The closed form of `∫ (n·h)^q (n·l) dω` at
+/// normal incidence; it can be found in Giesen, "Phong and Blinn-Phong normalization factors", 2009.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NormalIncidence {}
 
 /// `(q+8) / 8π`: what most engines of the forward-shading years used.
 ///
-/// An approximation of the former that gains energy: with `ks = 1` the albedo at normal incidence is 1.075 at `q = 8`,
-/// and above 1 for every `q > 0`. Akenine-Möller, Haines, Hoffman, *Real-Time Rendering*, 3rd edition, 2008,
+/// An approximation of the former that gains energy: with `ks = 1` the albedo at normal incidence is 1.0750 at `q = 8`,
+/// at most 1.0752 (`q = 8.76`), and above 1 for every `q > 0`. Akenine-Möller, Haines, Hoffman, *Real-Time Rendering*, 3rd edition, 2008,
 /// section 7.6.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CommonNormalization {}

@@ -39,7 +39,9 @@ use crate::vector::Vec3;
 /// - below the horizon, `l.z ≤ 0` or `v.z ≤ 0`, the value is 0;
 /// - inside the declared domain of its parameters, for cosines from 1 down to 1e-20, it is finite and not negative;
 /// - a NaN or an infinity in any component of `l` or `v` gives NaN in every channel;
-/// - lengths that are off by rounding change the value by rounding, not more.
+/// - lengths that are off by `ε` move the value of a mirror lobe by `ε²` only, that of a half-vector lobe as a tilt of `h`
+///   by `ε/(n·l + n·v)` would: nothing to be seen, except for sharp lobes within 1e-6 of the horizon
+///   (`docs/numerics.md` says why it is left).
 ///
 /// The trait can be made into an object: `&dyn Brdf<f64>` is a material of which nothing is known.
 pub trait Brdf<R: Real> {
