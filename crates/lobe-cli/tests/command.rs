@@ -337,4 +337,28 @@ fn a_report_that_cannot_be_written_says_so_before_the_work() {
     fails(&run, 4, &format!("file: cannot write this: it is a file, not a folder; {right}"));
     let run = lobe_in(folder.path(), &["report", "s.obj", "-o", "file/below"], b"");
     fails(&run, 4, &format!("file/below: cannot write this: not a directory; {right}"));
+
+    // Nothing of the two files is written when one of them cannot be.
+    fs::create_dir_all(folder.path().join("out/report.json")).expect("a folder");
+    let start = Instant::now();
+    let run = lobe_in(folder.path(), &["report", "s.obj", "-o", "out", "--samples", "4096"], b"");
+    let right = "name a file in a folder that exists and can be written to";
+    fails(&run, 4, &format!("out/report.json: cannot write this: it is a folder; {right}"));
+    assert!(start.elapsed() < Duration::from_secs(10));
+    assert_eq!(fs::read_dir(folder.path().join("out")).expect("a folder").count(), 1);
+}
+
+#[test]
+fn a_picture_that_cannot_be_written_says_so_before_the_work() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write_scene(folder.path());
+    fs::create_dir(folder.path().join("folder.png")).expect("a folder");
+    let right = "name a file in a folder that exists and can be written to";
+    for (target, why) in [("folder.png", "it is a folder"), ("no/a.png", "no such file or directory")] {
+        let start = Instant::now();
+        let run = lobe_in(folder.path(), &["render", "s.obj", "--samples", "4096", "-o", target], b"");
+        fails(&run, 4, &format!("{target}: cannot write this: {why}; {right}"));
+        assert!(start.elapsed() < Duration::from_secs(10));
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3, "no temporary file is left");
 }
