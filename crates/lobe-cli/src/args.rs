@@ -73,10 +73,10 @@ pub(crate) struct ReportArgs {
     #[arg(long, value_name = "MODEL")]
     pub(crate) shading: Option<String>,
     /// Rays for each pixel, 1 to 4096
-    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, default_value_t = 4, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub(crate) samples: u32,
     /// Pixels in a row of the main picture, 64 to 4096; the others have two thirds of it
-    #[arg(long, default_value_t = 960, value_parser = clap::value_parser!(u32).range(64..=4096))]
+    #[arg(long, default_value_t = 960, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(64..=4096))]
     pub(crate) width: u32,
 }
 
@@ -107,13 +107,13 @@ pub(crate) struct RenderArgs {
     #[arg(long)]
     pub(crate) view: Option<String>,
     /// Pixels in a row
-    #[arg(long, default_value_t = 1280, value_parser = clap::value_parser!(u32).range(1..=32768))]
+    #[arg(long, default_value_t = 1280, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=32768))]
     pub(crate) width: u32,
     /// Rows
-    #[arg(long, default_value_t = 720, value_parser = clap::value_parser!(u32).range(1..=32768))]
+    #[arg(long, default_value_t = 720, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=32768))]
     pub(crate) height: u32,
     /// Rays for each pixel, 1 to 4096
-    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, default_value_t = 4, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub(crate) samples: u32,
     /// Stops to add to the exposure of the view (.png only)
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_stops)]
@@ -149,7 +149,7 @@ pub(crate) struct EvalArgs {
     /// The number type to read, compute and print in: f32 or f64
     #[arg(long, default_value = "f32", value_parser = parse_number)]
     pub(crate) number: Number,
-    /// Scale directions to unit length first; without it a length off by more than 0.001 is an error
+    /// Scale directions to unit length first; without it a length off by more than 0.00001 is an error
     #[arg(long)]
     pub(crate) normalize: bool,
     /// List the presets and what they are made of
@@ -201,14 +201,14 @@ pub(crate) struct PlotArgs {
     /// A BRDF: JSON, @FILE or a preset; may be given several times (`surface` draws one). Not for `compare`
     #[arg(long)]
     pub(crate) brdf: Vec<String>,
-    /// The angle between the light and the normal, in degrees, from 0 to below 90
-    #[arg(long, default_value_t = 55.0, value_parser = parse_incidence)]
+    /// The angle between the light and the normal, in degrees, from 0 to 89.9
+    #[arg(long, default_value_t = 55.0, allow_negative_numbers = true, value_parser = parse_incidence)]
     pub(crate) incidence: f64,
     /// Draw f_r times the cosine of the outgoing direction, as a goniometer would see it (polar, curve and surface)
     #[arg(long)]
     pub(crate) cosine: bool,
     /// The exponent q of `compare`, from 0 to 250000
-    #[arg(long, default_value_t = 50.0, value_parser = parse_exponent)]
+    #[arg(long, default_value_t = 50.0, allow_negative_numbers = true, value_parser = parse_exponent)]
     pub(crate) q: f64,
     /// The SVG file to write; - for standard output
     #[arg(long, short, default_value = "lobe.svg")]
@@ -258,7 +258,7 @@ pub(crate) struct SweepArgs {
     /// One function, such as log2; all of them without it
     pub(crate) function: Option<String>,
     /// Try only every N-th bit pattern
-    #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) stride: u32,
 }
 

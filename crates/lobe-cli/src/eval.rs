@@ -11,8 +11,10 @@ use std::fmt::Debug;
 use std::io::{BufRead, BufReader, BufWriter, IsTerminal as _, Read as _, Write};
 use std::str::FromStr;
 
-/// How far from 1 a length may be. Directions with three decimals pass; a forgotten normalisation does not.
-pub const LENGTH_TOLERANCE: f64 = 1e-3;
+/// How far from 1 a length may be: a unit vector of `f32` is off by 1e-7, one printed with six decimals by 1e-6. A lobe
+/// of exponent `q` turns an error of the length into one `q` times as large, so what is off by more has to be
+/// normalised.
+pub const LENGTH_TOLERANCE: f64 = 1e-5;
 /// Six numbers of a thousand digits each would fit; a file without line ends does not fill the memory.
 const MAX_LINE: u64 = 8192;
 

@@ -20,52 +20,21 @@ pub(crate) fn stdout_result(result: io::Result<()>) -> Result<bool, Failure> {
     }
 }
 
-/// Writes a file so that a reader finds either the old content or the new, whole: under a temporary name in the same
-/// folder, then renamed. `-` is standard output; a device or a pipe is written to directly.
+/// Writes a file in one step, see [`lobe_scene::write_atomically`]. `-` is standard output.
 pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if path.as_os_str() == "-" {
         return print(bytes);
     }
-    let right = "name a file in a folder that exists and can be written to";
-    replace(path, bytes).map_err(|error| Failure::write(path, &error, right))
+    Ok(lobe_scene::write_atomically(path, bytes)?)
 }
 
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    if let Ok(found) = std::fs::metadata(path) {
-        if found.is_dir() {
-            return Err(io::Error::other("it is a folder"));
-        }
-        if !found.is_file() {
-            return std::fs::write(path, bytes);
-        }
-    }
-    // A link stays a link: what it points to is replaced.
-    let path = &std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".lobe-").suffix(".tmp");
-    #[cfg(unix)]
-    {
-        // What the umask leaves of it, as for any new file; a temporary file would be private.
-        use std::os::unix::fs::PermissionsExt as _;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.persist(path)?;
-    Ok(())
-}
-
-/// Makes the folder `path`, with its parents, and tries whether it can be written to: before the work, not after.
-pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
+/// Makes the folder `path`, with its parents, and tries whether these files can be written in it: before the work, not
+/// after.
+pub(crate) fn make_folder(path: &Path, files: &[&Path]) -> Result<(), Failure> {
     let right = "name a folder that can be made and written to with -o";
-    std::fs::create_dir_all(path)
-        .and_then(|()| tempfile::Builder::new().prefix(".lobe-").tempfile_in(path).map(drop))
-        .map_err(|error| {
-            let error = if path.is_file() { io::Error::other("it is a file, not a folder") } else { error };
-            Failure::write(path, &error, right)
-        })
+    std::fs::create_dir_all(path).map_err(|error| {
+        let error = if path.is_file() { io::Error::other("it is a file, not a folder") } else { error };
+        Failure::write(path, &error, right)
+    })?;
+    files.iter().try_for_each(|file| Ok(lobe_scene::check_writable(file)?))
 }

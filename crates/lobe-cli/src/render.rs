@@ -5,7 +5,9 @@ use crate::error::Failure;
 use crate::output;
 use crate::progress::Progress;
 use lobe_scene::image::{Depth, Display, MAX_PIXELS, check_ending};
-use lobe_scene::{Image, LoadOptions, Renderer, Scene, Settings, ShadingModel, View, default_scene, load};
+use lobe_scene::{
+    Image, LoadOptions, Renderer, Scene, Settings, ShadingModel, View, check_writable, default_scene, load,
+};
 use serde_json::json;
 use std::io::Write as _;
 use std::path::Path;
@@ -22,6 +24,7 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
             "a picture of {size} has {pixels} pixels; at most {MAX_PIXELS} are possible"
         )));
     }
+    check_writable(&args.output)?;
     let scene = open(args.scene.as_deref(), args.shading.as_deref())?;
     if !quiet {
         for warning in &scene.warnings {

@@ -122,7 +122,7 @@ pub(crate) fn from_argument(argument: &str) -> Result<Spec, Failure> {
         }
         return Ok(spec);
     }
-    if argument.trim_start().starts_with('{') {
+    if argument.trim_start().starts_with(['{', '[', '"']) {
         return parse(argument, "--brdf");
     }
     let Some((name, text)) = PRESETS.iter().find(|(name, _)| *name == argument) else {
@@ -159,6 +159,12 @@ fn parse_unnamed(text: &str, source: &str) -> Result<Spec, Failure> {
     }
     // Editors of Windows put a byte order mark at the start.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if text.trim_ascii_start().starts_with(['[', '"']) {
+        let line = text.len() - text.trim_ascii_start().len();
+        let line = text[..line].matches('\n').count() + 1;
+        let right = "a BRDF is an object such as {\"lobes\": [{\"model\": \"lambert\", \"albedo\": 0.8}]}";
+        return Err(Failure::Input(format!("{source}:{line}:1: expected an object; {right}")));
+    }
     let raw: Raw = serde_json::from_str(text).map_err(|error| {
         let (line, column) = (error.line().max(1), error.column().max(1));
         let message = error.to_string();

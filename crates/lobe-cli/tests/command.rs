@@ -94,6 +94,7 @@ fn eval_names_the_line_and_keeps_what_was_right() {
         ("0,0,1,0,0,one", "`one` is not a number; a line has six numbers, lx,ly,lz,vx,vy,vz"),
         ("0,0,1,0,nan,1", "`nan` is not a finite number; a line has six numbers, lx,ly,lz,vx,vy,vz"),
         ("0,0,0,0,0,1", "direction l has length 0; a direction has unit length"),
+        ("0,0,1.0009765625,0,0,1", "direction l has length 1.0009765625; give it unit length, or use --normalize"),
         ("0,0,1,0,0,1.5", "direction v has length 1.5; give it unit length, or use --normalize"),
     ] {
         let run = lobe(&["eval", "--brdf", "paper"], &format!("{good}# a comment\n{line}\n{good}"));
@@ -113,6 +114,9 @@ fn wrong_brdfs_say_what_would_be_right() {
     fails(&run, 3, &format!("--brdf:1:27: lobes[0]: unknown model `cook`; {known}"));
     let run = lobe(&["eval", "--brdf", r#"{"lobes": [{"model": "phong", "ks": 1, "q": 2000000}]}"#], "");
     fails(&run, 3, "--brdf:1:51: lobes[0]: `q` is 2000000.0; an exponent from 0 to 1000000");
+    let run = lobe(&["eval", "--brdf", "[]"], "");
+    let right = "a BRDF is an object such as {\"lobes\": [{\"model\": \"lambert\", \"albedo\": 0.8}]}";
+    fails(&run, 3, &format!("--brdf:1:1: expected an object; {right}"));
     let run = lobe(&["eval", "--brdf", "@no/such.json"], "");
     let right = "after @ stands a file with a BRDF in JSON";
     fails(&run, 3, &format!("no/such.json: cannot read this file: no such file or directory; {right}"));
@@ -178,6 +182,25 @@ fn plots_are_written_whole_and_old_ones_survive_an_error() {
     let right = "name a file in a folder that exists and can be written to";
     fails(&run, 4, &format!("no/folder/a.svg: cannot write this: no such file or directory; {right}"));
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 4, "no temporary file is left");
+}
+
+#[test]
+fn a_plot_is_svg_and_numbers_below_the_range_are_said_to_be() {
+    for name in ["a.png", "a.txt", "a"] {
+        let right = "plots end in .svg, or - is standard output";
+        fails(&lobe(&["plot", "-o", name], ""), 2, &format!("{name}: unknown kind of file; {right}"));
+    }
+    for arguments in [
+        ["plot", "--incidence", "-5"],
+        ["plot", "--q", "-1"],
+        ["render", "--samples", "-1"],
+        ["report", "--width", "-1"],
+        ["sweep", "--stride", "-1"],
+    ] {
+        let run = lobe(&arguments, "");
+        assert_eq!(run.code, Some(2));
+        assert!(run.err.starts_with("error: invalid value '-"), "{}", run.err);
+    }
 }
 
 #[test]
@@ -249,7 +272,9 @@ fn render_writes_a_picture() {
     let run = lobe_in(folder.path(), &["render", "s.obj", "-o", "a.jpg"], b"");
     fails(&run, 2, "a.jpg: unknown kind of file; pictures end in .png, .exr or .pfm");
     let run = lobe_in(folder.path(), &["render", "s.obj", "--view", "top", "-o", "a.png"], b"");
-    fails(&run, 2, "the view is `top`; this scene has default");
+    fails(&run, 2, "the name of the view is `top`; the only view of this scene is `default`");
+    let run = lobe_in(folder.path(), &["render", ".", "-o", "a.png"], b"");
+    assert!(run.err.starts_with("error: .: cannot read this file: it is a folder"), "{}", run.err);
 }
 
 #[test]
@@ -337,4 +362,28 @@ fn a_report_that_cannot_be_written_says_so_before_the_work() {
     fails(&run, 4, &format!("file: cannot write this: it is a file, not a folder; {right}"));
     let run = lobe_in(folder.path(), &["report", "s.obj", "-o", "file/below"], b"");
     fails(&run, 4, &format!("file/below: cannot write this: not a directory; {right}"));
+
+    // Nothing of the two files is written when one of them cannot be.
+    fs::create_dir_all(folder.path().join("out/report.json")).expect("a folder");
+    let start = Instant::now();
+    let run = lobe_in(folder.path(), &["report", "s.obj", "-o", "out", "--samples", "4096"], b"");
+    let right = "name a file in a folder that exists and can be written to";
+    fails(&run, 4, &format!("out/report.json: cannot write this: it is a folder; {right}"));
+    assert!(start.elapsed() < Duration::from_secs(10));
+    assert_eq!(fs::read_dir(folder.path().join("out")).expect("a folder").count(), 1);
+}
+
+#[test]
+fn a_picture_that_cannot_be_written_says_so_before_the_work() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write_scene(folder.path());
+    fs::create_dir(folder.path().join("folder.png")).expect("a folder");
+    let right = "name a file in a folder that exists and can be written to";
+    for (target, why) in [("folder.png", "it is a folder"), ("no/a.png", "no such file or directory")] {
+        let start = Instant::now();
+        let run = lobe_in(folder.path(), &["render", "s.obj", "--samples", "4096", "-o", target], b"");
+        fails(&run, 4, &format!("{target}: cannot write this: {why}; {right}"));
+        assert!(start.elapsed() < Duration::from_secs(10));
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3, "no temporary file is left");
 }

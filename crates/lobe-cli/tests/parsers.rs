@@ -17,7 +17,7 @@ proptest! {
         let line = numbers.map(|x| format!("{x:e}")).join(",");
         if let Ok(line) = eval::parse_line::<f64>(line.as_bytes(), normalize) {
             let eval::Line::Pair(l, v) = line else { panic!("numbers are no comment") };
-            prop_assert!((l.length() - 1.0).abs() <= 1.1e-3 && (v.length() - 1.0).abs() <= 1.1e-3);
+            prop_assert!((l.length() - 1.0).abs() <= 1.1e-5 && (v.length() - 1.0).abs() <= 1.1e-5);
         }
     }
 

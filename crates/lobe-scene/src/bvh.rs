@@ -7,6 +7,7 @@
 //! each edge, and a shared edge gives both neighbours the same volume with exactly the opposite sign (the test of
 //! Embree's robust mode, after Plücker coordinates). Where a sign is in doubt it is computed again in `f64`.
 
+use crate::mesh::place;
 use glam::{Vec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -14,6 +15,7 @@ use obvhs::bvh2::leaf_collapser::collapse;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use obvhs::ray::{Ray, RayHit};
+use std::collections::HashSet;
 
 /// A triangle as the ray test wants it.
 #[derive(Debug, Clone, Copy)]
@@ -46,15 +48,22 @@ impl Bvh {
         // lose a triangle to it.
         let largest = triangles.iter().flatten().fold(0.0_f32, |largest, point| largest.max(point.abs().max_element()));
         let padding = Vec3A::splat(8.0 * f32::EPSILON * largest);
-        let boxes: Vec<Aabb> = triangles
+        // The builder pairs the boxes that fit best. Among equal boxes it finds but one pair in each pass over all of
+        // them, and its time becomes quadratic. Of triangles in the same place no ray needs more than the first.
+        let mut seen = HashSet::with_capacity(triangles.len());
+        let distinct: Vec<u32> =
+            (0..).zip(triangles).filter(|(_, t)| seen.insert(place(**t))).map(|(at, _)| at).collect();
+        drop(seen);
+        let boxes: Vec<Aabb> = distinct
             .iter()
-            .map(|&[a, b, c]| {
+            .map(|&at| {
+                let [a, b, c] = triangles[at as usize];
                 let (low, high) = (a.min(b).min(c), a.max(b).max(c));
                 Aabb::new(Vec3A::from(low) - padding, Vec3A::from(high) + padding)
             })
             .collect();
         // These are the steps of obvhs's "medium" build, without the checks that it makes in debug builds.
-        let indices = (0..triangles.len() as u32).collect();
+        let indices = (0..boxes.len() as u32).collect();
         let mut tree = PlocBuilder::new().build(PlocSearchDistance::Medium, &boxes, indices, SortPrecision::U64, 3);
         let mut optimizer = ReinsertionOptimizer::default();
         optimizer.run(&mut tree, 0.05, None);
@@ -62,7 +71,8 @@ impl Bvh {
         optimizer.run(&mut tree, 0.1, None);
         tree.max_depth = depth(&tree) + 1;
 
-        let original = std::mem::take(&mut tree.primitive_indices);
+        let order = std::mem::take(&mut tree.primitive_indices);
+        let original: Vec<u32> = order.into_iter().map(|at| distinct[at as usize]).collect();
         let corners = original.iter().map(|&at| Corners(triangles[at as usize].map(Vec3A::from))).collect();
         Self { tree, corners, original }
     }

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 /// The largest coordinate of a camera. Well beyond [`MAX_COORDINATE`](crate::MAX_COORDINATE), so that the largest
 /// scene can be seen from outside; its square is still far inside the range of `f32`.
-const FARTHEST: f32 = 1e12;
+pub(crate) const FARTHEST: f32 = 1e12;
 
 /// Where the picture is taken from.
 #[derive(Debug, Clone, Copy, PartialEq)]

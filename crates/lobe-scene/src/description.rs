@@ -2,14 +2,20 @@
 
 use crate::camera::Camera;
 use crate::error::Error;
+use crate::files;
 use crate::material::ShadingModel;
+use crate::mtl;
 use crate::obj;
 use crate::scene::{Background, Light, Scene, View};
 use glam::Vec3;
 use lobe::Rgb;
 use serde::Deserialize;
+use std::collections::HashSet;
 use std::io;
 use std::path::Path;
+
+/// The longest description that is read: 64 MiB.
+const MAX_BYTES: u64 = 64 << 20;
 
 /// What a caller wants other than a file says.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -27,15 +33,24 @@ pub struct LoadOptions {
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, Error> {
     let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
     let file = path.display().to_string();
+    if path.is_dir() {
+        return Err(Error::read(path, io::Error::other("it is a folder; name an .obj or .json file")));
+    }
     match ending.as_deref() {
         Some("obj") => {
             let model = obj::load(path, &obj_options(options, None))?;
             Ok(Scene::from_model(model, options.shading_model.unwrap_or_default()))
         }
         Some("json") => {
-            let text = std::fs::read_to_string(path).map_err(|source| Error::read(path, source))?;
+            let text = files::read(path, MAX_BYTES)
+                .and_then(|bytes| String::from_utf8(bytes).map_err(|_| io::Error::other("it is not text in UTF-8")))
+                .map_err(|source| Error::read(path, source))?;
             let folder = path.parent().unwrap_or(Path::new(""));
-            parse(&text, &file, &mut |name| std::fs::read(folder.join(name)), options)
+            // The model comes first, then its libraries.
+            let mut limit = obj::MAX_BYTES;
+            let mut loader =
+                |name: &str| files::read(&folder.join(name), std::mem::replace(&mut limit, mtl::MAX_BYTES));
+            parse(&text, &file, &mut loader, options)
         }
         _ => Err(Error::UnknownFormat { path: path.to_owned(), expected: "scenes end in .obj or .json" }),
     }
@@ -88,13 +103,35 @@ pub fn parse(
     loader: &mut dyn FnMut(&str) -> io::Result<Vec<u8>>,
     options: &LoadOptions,
 ) -> Result<Scene, Error> {
+    // Editors of Windows put a byte order mark at the start.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let right = "a description is an object such as {\"obj\": \"model.obj\"}";
+    if let Some(at) = text.find(|c: char| !c.is_ascii_whitespace()).filter(|&at| !text[at..].starts_with('{')) {
+        let line = text[..at].matches('\n').count() + 1;
+        let column = text[..at].rsplit('\n').next().map_or(0, str::len) + 1;
+        let problem = format!("expected an object; {right}");
+        return Err(Error::Json { file: file.to_owned(), line, column, problem });
+    }
     let description: Description = serde_json::from_str(text).map_err(|error| {
         // serde_json ends its message with the place, which stands at the front here.
         let message = error.to_string();
         let place = format!(" at line {} column {}", error.line(), error.column());
-        let problem = message.strip_suffix(&place).unwrap_or(&message).to_owned();
-        Error::Json { file: file.to_owned(), line: error.line(), column: error.column(), problem }
+        let mut problem = message.strip_suffix(&place).unwrap_or(&message).to_owned();
+        if !error.is_data() {
+            problem = format!("{problem}; {right}");
+        }
+        let (line, column) = (error.line().max(1), error.column().max(1));
+        Error::Json { file: file.to_owned(), line, column, problem }
     })?;
+    let mut names = HashSet::new();
+    if let Some(twice) = description.views.iter().flatten().find(|view| !names.insert(view.name.as_str())) {
+        let what = format!("{file}: the name of a view");
+        return Err(Error::setting(
+            what,
+            format!("`{}`", twice.name),
+            "another view has it already; give each its own",
+        ));
+    }
     let obj_path = Path::new(&description.obj);
     let shown = Path::new(file).with_file_name(obj_path);
     let content = loader(&description.obj).map_err(|source| Error::read(&shown, source))?;
@@ -350,7 +387,7 @@ mod tests {
         assert_eq!(b.lights.as_ref().map(Vec::len), Some(2));
         assert_eq!(b.background.radiance(Vec3::X).r, 0.5);
         let error = scene.view("c").map(|_| ()).expect_err("no such view").to_string();
-        assert_eq!(error, "the view is `c`; this scene has a, b");
+        assert_eq!(error, "the name of the view is `c`; the views of this scene are `a`, `b`");
         Ok(())
     }
 
@@ -374,7 +411,13 @@ mod tests {
             ("{\"obj\": \"x\", \"background\": [1]}", "dir/s.json:1:31: a background is a colour"),
             ("{\"obj\": \"x\", \"crease_degrees\": 181}", "dir/s.json:1:35: crease_degrees lies"),
             ("{\"obj\": \"x\", \"shading_model\": \"gouraud\"}", "dir/s.json:1:39: unknown variant `gouraud`"),
-            ("{\"obj\": \"x\"", "dir/s.json:1:11: EOF while parsing an object"),
+            ("{\"obj\": \"x\"", "dir/s.json:1:11: EOF while parsing an object; a description is an object such as {"),
+            ("\u{feff}\n [\"a.obj\"]", "dir/s.json:2:2: expected an object; a description is an object such as {"),
+            ("", "dir/s.json:1:1: EOF while parsing a value; a description is"),
+            (
+                "{\"obj\": \"x\", \"views\": [{\"name\": \"a\"}, {\"name\": \"b\"}, {\"name\": \"a\"}]}",
+                "dir/s.json: the name of a view is `a`; another view has it already",
+            ),
             ("{\"obj\": \"none.obj\"}", "dir/none.obj: cannot read this file"),
             ("{\"obj\": \"bad.obj\"}", "dir/bad.obj:1: index 1 in `1` is out of range"),
         ];

@@ -6,14 +6,12 @@
 //! | `.exr` | OpenEXR, 32-bit float, linear: the radiance itself, without exposure |
 //! | `.pfm` | Portable float map, the same numbers |
 //!
-//! A file is written under a temporary name in the same folder and then renamed. So a file that exists is at any
-//! moment either the old or the new one, whole.
+//! A file is written in one step, see [`write_atomically`](crate::write_atomically).
 
 use crate::Error;
 use glam::Vec3;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A picture of linear radiance, row by row from the upper left.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,7 +114,7 @@ impl Image {
             Format::Pfm => Ok(self.pfm()),
         };
         let bytes = bytes.map_err(|problem| Error::Encode { path: path.to_owned(), problem })?;
-        replace_file(path, &bytes).map_err(|source| Error::Write { path: path.to_owned(), source })
+        crate::write_atomically(path, &bytes)
     }
 
     /// The picture as the bytes of a PNG file with 8 bits a channel: what a web page would show.
@@ -212,26 +210,6 @@ fn format_of(path: &Path) -> Result<Format, Error> {
     }
 }
 
-/// Puts a file in place in one step, by renaming a finished temporary file beside it.
-fn replace_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    static COUNTER: AtomicU32 = AtomicU32::new(0);
-    let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "no file name"))?;
-    let mut temporary_name = std::ffi::OsString::from(".");
-    temporary_name.push(name);
-    temporary_name.push(format!(".{}-{}.tmp", std::process::id(), COUNTER.fetch_add(1, Ordering::Relaxed)));
-    let temporary = path.with_file_name(temporary_name);
-    let written = std::fs::OpenOptions::new().write(true).create_new(true).open(&temporary).and_then(|mut file| {
-        file.write_all(bytes)?;
-        file.sync_all()
-    });
-    let done = written.and_then(|()| std::fs::rename(&temporary, path));
-    if done.is_err() {
-        // What went wrong already is what the caller needs to know.
-        let _ = std::fs::remove_file(&temporary);
-    }
-    done
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -304,7 +282,7 @@ mod tests {
     fn a_failed_write_leaves_the_old_file_and_nothing_else() -> Outcome {
         let folder = tempfile::tempdir()?;
         let image = test_image()?;
-        // A folder stands where the file should go: the rename fails after the whole file has been written.
+        // A folder stands where the file should go.
         let path = folder.path().join("a.png");
         std::fs::create_dir(&path)?;
         std::fs::write(path.join("inside"), "kept")?;

@@ -24,7 +24,8 @@
 //! | [`Smoothing`] | normals where a file has none |
 //! | [`Material`] | how a material becomes lobes, and in which units |
 //! | [`Renderer`] | the picture: shadows, mirrors, two sides, smooth outlines |
-//! | [`image`] | PNG, EXR and PFM, written without ever leaving half a file |
+//! | [`image`] | PNG, EXR and PFM |
+//! | [`write_atomically`], [`check_writable`] | files written without ever leaving half of one |
 //! | [`procedural`] | scenes made by a formula |
 //!
 //! # Units
@@ -46,6 +47,7 @@ mod bvh;
 mod camera;
 mod description;
 mod error;
+mod files;
 pub mod image;
 mod lines;
 mod material;
@@ -62,6 +64,7 @@ pub use builtin::default_scene;
 pub use camera::Camera;
 pub use description::{LoadOptions, load, parse as parse_description};
 pub use error::{Error, Warning};
+pub use files::{check_writable, write_all_atomically, write_atomically};
 pub use image::Image;
 pub use material::{AnyBrdf, LobeRecord, Material, ShadingModel, Surface};
 pub use mesh::{MAX_COORDINATE, Mesh, Triangle};

@@ -2,6 +2,7 @@
 
 use crate::Error;
 use glam::{DVec3, Vec3};
+use std::collections::HashSet;
 
 /// The largest coordinate that a mesh may have, in units of the scene.
 ///
@@ -66,6 +67,19 @@ impl Mesh {
     /// Takes out triangles without an area (or with one that `f32` cannot hold) and says which were kept.
     pub(crate) fn drop_degenerate(&mut self) -> Vec<bool> {
         let kept: Vec<bool> = self.triangles.iter().map(|triangle| has_area(self.corners(triangle))).collect();
+        let mut at = 0;
+        self.triangles.retain(|_| {
+            at += 1;
+            kept[at - 1]
+        });
+        kept
+    }
+
+    /// Takes out triangles that lie exactly on an earlier one, facing the same way, and says which were kept.
+    pub(crate) fn drop_duplicates(&mut self) -> Vec<bool> {
+        let mut seen = HashSet::with_capacity(self.triangles.len());
+        let kept: Vec<bool> =
+            self.triangles.iter().map(|triangle| seen.insert(place(self.corners(triangle)))).collect();
         let mut at = 0;
         self.triangles.retain(|_| {
             at += 1;
@@ -139,6 +153,14 @@ impl Mesh {
         }
         Ok(())
     }
+}
+
+/// The same for triangles that have the same corners in the same sense of rotation, and different for all others.
+pub(crate) fn place(corners: [Vec3; 3]) -> [[u32; 3]; 3] {
+    // The sum makes −0 a 0.
+    let bits = corners.map(|corner| (corner + 0.0).to_array().map(f32::to_bits));
+    let [a, b, c] = bits;
+    bits.min([b, c, a]).min([c, a, b])
 }
 
 /// Twice the area along the normal, in `f64`, where no coordinate up to [`MAX_COORDINATE`] overflows.

@@ -30,6 +30,9 @@ use std::collections::{HashMap, HashSet};
 /// The largest exponent `Ns` that is accepted; the lobes are accurate up to there.
 pub const MAX_EXPONENT: f32 = 1e6;
 
+/// The longest material library that is read from a file: 64 MiB.
+pub const MAX_BYTES: u64 = 64 << 20;
+
 /// Which terms of the equation a material uses: the statement `illum`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]

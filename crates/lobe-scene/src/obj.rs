@@ -9,6 +9,7 @@
 //! there is an `s` statement anywhere, else across edges up to the crease angle of [`Options`].
 
 use crate::error::{Error, Warning, Warnings};
+use crate::files;
 use crate::lines::{Place, Statements, keyword, shown, text, words};
 use crate::mesh::{MAX_COORDINATE, Mesh, Triangle};
 use crate::mtl::{self, MtlMaterial};
@@ -19,6 +20,9 @@ use std::collections::{HashMap, HashSet};
 use std::io;
 use std::ops::Range;
 use std::path::Path;
+
+/// The longest OBJ file that is read: 1 GiB.
+pub const MAX_BYTES: u64 = 1 << 30;
 
 /// How a file is to be understood where it leaves a choice.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,9 +65,9 @@ pub struct Model {
 /// # Errors
 /// [`Error::Read`] when the file cannot be read, and all errors of [`parse`].
 pub fn load(path: &Path, options: &Options) -> Result<Model, Error> {
-    let text = std::fs::read(path).map_err(|source| Error::read(path, source))?;
+    let text = files::read(path, MAX_BYTES).map_err(|source| Error::read(path, source))?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    parse(text, &path.display().to_string(), &mut |name| std::fs::read(folder.join(name)), options)
+    parse(text, &path.display().to_string(), &mut |name| files::read(&folder.join(name), mtl::MAX_BYTES), options)
 }
 
 /// Reads the text of an OBJ file.
@@ -93,10 +97,19 @@ pub fn parse(
     if !(0.0..=180.0).contains(&options.crease_degrees) {
         return Err(Error::setting("the crease angle", options.crease_degrees, "it lies between 0 and 180 degrees"));
     }
+    let text = text.as_ref();
+    let newlines = |text: &[u8]| text.iter().filter(|&&byte| byte == b'\n').count();
+    if let Some(at) = text.iter().position(|&byte| byte == 0) {
+        return Err(Error::syntax(file, newlines(&text[..at]) + 1, "a byte of value 0", NOT_OBJ));
+    }
     let mut reader = Reader::new(file, loader);
-    let mut statements = Statements::new(text.as_ref());
+    let mut statements = Statements::new(text);
     while let Some((line, statement)) = statements.next() {
         reader.statement(Place { file, line }, statement)?;
+    }
+    if reader.mesh.positions.is_empty() {
+        let lines = newlines(text) + usize::from(!text.is_empty() && !text.ends_with(b"\n"));
+        return Err(Error::syntax(file, 1, format!("not one `v` line in {lines} lines"), NOT_OBJ));
     }
     reader.finish(options)
 }
@@ -175,6 +188,8 @@ impl Form {
         }
     }
 }
+
+const NOT_OBJ: &str = "this is not an OBJ file, a text with `v x y z` and `f 1 2 3` lines";
 
 const FACE_HELP: &str = "write `f` and three corners or more, each as v, v/vt, v//vn or v/vt/vn";
 
@@ -423,7 +438,12 @@ impl<'a> Reader<'a> {
             match found {
                 Ok(found) => self.add_library(name, found)?,
                 Err(error) => {
-                    let text = format!("cannot read the material library `{name}` ({error}): its materials are grey");
+                    let sought = Path::new(self.file).with_file_name(&name);
+                    let why = system_message(&error);
+                    let text = format!(
+                        "the material library `{name}` was sought at {}: {why}; its materials are grey",
+                        sought.display()
+                    );
                     self.warnings.push(place.line, text);
                     self.loaded.insert(name);
                 }
@@ -457,7 +477,9 @@ impl<'a> Reader<'a> {
             );
             self.warnings.push(self.guesses.line, text);
         }
-        self.drop_degenerate();
+        self.drop_triangles(Mesh::drop_degenerate, "triangles without an area: dropped");
+        // Exporters write them by mistake. No ray can tell them apart, and many of them would slow down every ray.
+        self.drop_triangles(Mesh::drop_duplicates, "triangles lie exactly on an earlier one: dropped");
         if self.mesh.triangles.is_empty() {
             return Err(Error::NoTriangles { file: self.file.to_owned() });
         }
@@ -468,13 +490,13 @@ impl<'a> Reader<'a> {
         Ok(Model { mesh: self.mesh, materials, parts: self.parts, warnings: self.warnings.finish() })
     }
 
-    fn drop_degenerate(&mut self) {
-        let kept = self.mesh.drop_degenerate();
+    fn drop_triangles(&mut self, drop: fn(&mut Mesh) -> Vec<bool>, what: &str) {
+        let kept = drop(&mut self.mesh);
         let dropped = kept.iter().filter(|&&kept| !kept).count();
         if dropped == 0 {
             return;
         }
-        self.warnings.push(0, format!("{dropped} triangles without an area: dropped"));
+        self.warnings.push(0, format!("{dropped} {what}"));
         let mut at = 0;
         self.groups.retain(|_| {
             at += 1;
@@ -515,6 +537,15 @@ impl<'a> Reader<'a> {
             triangle.material = index_of[name_index];
         }
         materials
+    }
+}
+
+/// What the system said, without the number of the error, which says nothing to a reader.
+fn system_message(error: &io::Error) -> String {
+    let text = error.to_string();
+    match text.find(" (os error") {
+        Some(end) => text[..end].to_lowercase(),
+        None => text,
     }
 }
 

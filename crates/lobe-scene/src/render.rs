@@ -4,7 +4,7 @@
 //! `eval_cos(l, v) · E`, a mirror sends a ray on, and a dissolved surface lets one through.
 
 use crate::bvh::{Bvh, Hit};
-use crate::camera::Rays;
+use crate::camera::{FARTHEST, Rays};
 use crate::error::Error;
 use crate::image::Image;
 use crate::material::{Material, Surface};
@@ -186,8 +186,10 @@ impl Lights {
         for light in lights {
             match *light {
                 Light::Point { position, intensity, radius } => {
-                    if !position.is_finite() {
-                        return Err(Error::setting("the position of a light", position, "its coordinates are finite"));
+                    if !position.abs().cmple(Vec3::splat(10.0 * FARTHEST)).all() {
+                        // The default light stands a few times as far out as the camera.
+                        let expected = "its coordinates are finite and at most 1e13 in size";
+                        return Err(Error::setting("the position of a light", position, expected));
                     }
                     if !(radius >= 0.0 && radius.is_finite()) {
                         return Err(Error::setting("the radius of a light", radius, "it is finite and not negative"));

@@ -58,8 +58,12 @@ impl Scene {
     /// [`Error::Setting`] with the names that there are.
     pub fn view(&self, name: &str) -> Result<&View, Error> {
         self.views.iter().find(|view| view.name == name).ok_or_else(|| {
-            let names: Vec<_> = self.views.iter().map(|view| view.name.as_str()).collect();
-            Error::setting("the view", format!("`{name}`"), format!("this scene has {}", names.join(", ")))
+            let names: Vec<_> = self.views.iter().map(|view| format!("`{}`", view.name)).collect();
+            let expected = match names.as_slice() {
+                [only] => format!("the only view of this scene is {only}"),
+                _ => format!("the views of this scene are {}", names.join(", ")),
+            };
+            Error::setting("the name of the view", format!("`{name}`"), expected)
         })
     }
 

@@ -122,7 +122,7 @@ fn what_is_skipped_is_said_once() -> Result<(), Error> {
          newmtl m2\nKa spectral a.rfl\nillum 10\nnewmtl m2\n",
     )?;
     let expected = [
-        ":1: cannot read the material library `missing.mtl` (entity not found): its materials are grey",
+        ":1: the material library `missing.mtl` was sought at dir/missing.mtl: entity not found; its materials are grey",
         "dir/a.mtl:3: Kd is above 1: more light leaves than arrives",
         "dir/a.mtl:4: material `m`: the map `map_Kd -s 1 1 a.png` is not supported and has no effect",
         "dir/a.mtl:5: material `m`: the map `bump b.png` is not supported and has no effect",
@@ -140,6 +140,7 @@ fn what_is_skipped_is_said_once() -> Result<(), Error> {
         ":8: 2 normals (vn) of length 0: computed from the faces instead",
         ":23: 1 polygons cross themselves, have no area or have too many corners: drawn as they come",
         ": 2 triangles without an area: dropped",
+        ": 2 triangles lie exactly on an earlier one: dropped",
         ":18: no library has the material `ghost`: grey",
     ];
     let mut found = texts(&model.warnings);
@@ -150,8 +151,41 @@ fn what_is_skipped_is_said_once() -> Result<(), Error> {
         .collect();
     expected.sort();
     assert_eq!(found, expected);
-    assert_eq!(model.mesh.triangles.len(), 5);
+    assert_eq!(model.mesh.triangles.len(), 3);
     Ok(())
+}
+
+#[test]
+fn coincident_triangles_are_counted_and_dropped() -> Result<(), Error> {
+    let faces = "f 1 2 3\nf 2 3 1\ng other\nf 3 1 2\nf 3 2 1\nf 1 3 4\n";
+    let model = parse(&format!("{POINTS}v 0 -0 0\n{faces}f 5 2 3\n"))?;
+    assert_eq!(texts(&model.warnings), ["dir/a.obj: 3 triangles lie exactly on an earlier one: dropped"]);
+    let kept: Vec<_> = model.mesh.triangles.iter().map(|triangle| triangle.positions).collect();
+    assert_eq!(kept, [[0, 1, 2], [2, 1, 0], [0, 2, 3]], "the other side is another triangle");
+    assert_eq!(model.parts[0].triangles, 1..3);
+    Ok(())
+}
+
+#[test]
+fn what_is_no_obj_file_is_called_so() {
+    for (bytes, expected) in [
+        (&b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"[..], "a.obj:3: a byte of value 0; this is not an OBJ file"),
+        (b"", "a.obj:1: not one `v` line in 0 lines; this is not an OBJ file"),
+        (b"dear all,\nthe minutes\n", "a.obj:1: not one `v` line in 2 lines; this is not an OBJ file"),
+    ] {
+        let message = obj::parse(bytes, "a.obj", &mut |_| Ok(Vec::new()), &Options::default());
+        let message = message.expect_err("no OBJ file").to_string();
+        assert!(message.starts_with(expected), "{message}");
+    }
+}
+
+#[test]
+fn only_files_are_read() {
+    let read = |path: &str| obj::load(path.as_ref(), &Options::default()).expect_err(path).to_string();
+    assert_eq!(read("src"), "src: cannot read this file: it is a folder");
+    if cfg!(unix) {
+        assert_eq!(read("/dev/zero"), "/dev/zero: cannot read this file: it is not a regular file");
+    }
 }
 
 #[test]
@@ -198,8 +232,8 @@ fn all_forms_of_corners_and_indices_agree() -> Result<(), Error> {
 fn parts_and_materials_keep_their_names() -> Result<(), Error> {
     let model = parse_with(
         &format!(
-            "mtllib a.mtl\n{POINTS}f 1 2 3\no box\ng left wall\nusemtl Material#25\nf 1 2 3 4\ng\nusemtl my paint\n\
-             f 1 2 2\nf 1 3 4\ng empty\n"
+            "mtllib a.mtl\n{POINTS}f 1 2 4\no box\ng left wall\nusemtl Material#25\nf 1 2 3 4\ng\nusemtl my paint\n\
+             f 1 2 2\nf 2 3 4\ng empty\n"
         ),
         "newmtl my paint\nKd 0.1 0.2 0.3 # blue\nnewmtl unused\nnewmtl Material#25\nTr 0.25\n",
     )?;
@@ -318,8 +352,10 @@ proptest! {
             let [a, b, c] = face.map(|at| if backwards { at as i64 - points.len() as i64 } else { at as i64 + 1 });
             text += &format!("f {a} {b} {c}\n");
         }
+        let mut seen = std::collections::HashSet::new();
         let kept: Vec<[u32; 3]> = faces.iter()
             .filter(|[a, b, c]| a != b && b != c && c != a)
+            .filter(|&&[a, b, c]| seen.insert([a, b, c].min([b, c, a]).min([c, a, b])))
             .map(|face| face.map(|at| at as u32))
             .collect();
         match parse(&text) {

@@ -49,6 +49,20 @@ fn middle(scene: &Scene, view: &View, depth: u32) -> Result<f32, Error> {
     Ok(image.pixel(16, 16).map_or(f32::NAN, |pixel| pixel[0]))
 }
 
+/// The builder of the tree takes quadratic time for equal boxes: half a minute for these.
+#[test]
+fn coincident_triangles_take_no_time() -> Result<(), Error> {
+    let start = std::time::Instant::now();
+    let points = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+    let faces = vec![[0, 1, 2]; 20_000];
+    let scene =
+        Scene { meshes: vec![Mesh::flat(points, &faces, 0)?], materials: vec![diffuse(0.5)], ..Scene::default() };
+    assert_eq!(scene.triangle_count(), 20_000);
+    Renderer::new(&scene)?.render(&View::default(), &small(), None)?;
+    assert!(start.elapsed().as_secs() < 5);
+    Ok(())
+}
+
 #[test]
 fn a_sphere_has_the_analytic_radiance() -> Result<(), Error> {
     let mtl = MtlMaterial {

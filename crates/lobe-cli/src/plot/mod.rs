@@ -88,6 +88,13 @@ fn short_name(name: &str, longest: usize) -> String {
 /// Runs the verb.
 pub(crate) fn run(args: &PlotArgs, quiet: bool, json: bool) -> Result<(), Failure> {
     let setting = Setting { incidence: args.incidence, cosine: args.cosine };
+    let ending = args.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
+    if !ending && args.output.as_os_str() != "-" {
+        let path = args.output.display();
+        return Err(Failure::Usage(format!(
+            "{path}: unknown kind of file; plots end in .svg, or - is standard output"
+        )));
+    }
     let specs = specs(args)?;
     if !quiet {
         for warning in specs.iter().flat_map(Spec::warnings) {

@@ -71,7 +71,8 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
     let scene = render::open(args.scene.as_deref(), args.shading.as_deref())?;
     let renderer = Renderer::new(&scene)?;
     let load = start.elapsed().as_secs_f64();
-    output::make_folder(&args.output)?;
+    let [page_path, facts_path] = ["index.html", "report.json"].map(|name| args.output.join(name));
+    output::make_folder(&args.output, &[&page_path, &facts_path])?;
     if !quiet {
         for warning in &scene.warnings {
             let _ = writeln!(std::io::stderr(), "warning: {warning}");
@@ -116,12 +117,12 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
         .map_err(|error| Failure::Write(format!("report.json: cannot write this as JSON: {error}; report this")))?;
 
     let page = page::html(&facts, &plots);
-    output::write_file(&args.output.join("index.html"), page.as_bytes())?;
-    output::write_file(&args.output.join("report.json"), format!("{facts_json}\n").as_bytes())?;
+    let facts_text = format!("{facts_json}\n");
+    lobe_scene::write_all_atomically(&[(&page_path, page.as_bytes()), (&facts_path, facts_text.as_bytes())])?;
     if json {
-        output::print(format!("{facts_json}\n").as_bytes())?;
+        output::print(facts_text.as_bytes())?;
     } else if !quiet {
-        output::print(summary(&facts, &args.output.join("index.html").display().to_string()).as_bytes())?;
+        output::print(summary(&facts, &page_path.display().to_string()).as_bytes())?;
     }
     // The page is written either way; a material that gains energy is the scene's affair, a broken promise is ours.
     match facts.checks.iter().find(|check| !check.holds) {
