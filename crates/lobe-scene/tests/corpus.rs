@@ -109,9 +109,11 @@ fn descriptions() {
         let Ok(text) = std::str::from_utf8(first) else { continue };
         match parse_description(text, "a.json", &mut read, &LoadOptions::default()) {
             Ok(scene) => {
-                let result = draw(&scene);
-                assert!(result.is_ok(), "{}: {result:?}", path.display());
-                drawn += 1;
+                // A light too far out is found when it is used.
+                match draw(&scene) {
+                    Ok(_) => drawn += 1,
+                    Err(error) => check_error(&path, &error),
+                }
             }
             Err(error) => check_error(&path, &error),
         }
