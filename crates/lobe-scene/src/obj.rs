@@ -421,10 +421,10 @@ impl<'a> Reader<'a> {
             return Ok(());
         }
         let names: Vec<String> = words(rest).map(text).collect();
-        if names.len() > 1 {
-            if let Ok(found) = (self.loader)(&whole) {
-                return self.add_library(whole, found);
-            }
+        if names.len() > 1
+            && let Ok(found) = (self.loader)(&whole)
+        {
+            return self.add_library(whole, found);
         }
         for name in names {
             if self.loaded.contains(&name) {

@@ -77,10 +77,10 @@ fn above(curve: &[(f64, f64)], floor: f64) -> Vec<Vec<(f64, f64)>> {
     let mut piece: Vec<(f64, f64)> = Vec::new();
     let mut last: Option<(f64, f64)> = None;
     for &(x, y) in curve {
-        if let Some((x0, y0)) = last {
-            if (y0 < floor) != (y < floor) {
-                piece.push((x0 + (x - x0) * (floor - y0) / (y - y0), floor));
-            }
+        if let Some((x0, y0)) = last
+            && (y0 < floor) != (y < floor)
+        {
+            piece.push((x0 + (x - x0) * (floor - y0) / (y - y0), floor));
         }
         if y >= floor {
             piece.push((x, y));
