@@ -17,6 +17,13 @@ use std::time::Instant;
 pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Failure> {
     // What can be known to fail is known before the work.
     check_ending(&args.output).map_err(|error| Failure::Usage(error.to_string()))?;
+    let png = args.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
+    if !png && (args.deep || args.exposure != 0.0) {
+        return Err(Failure::Usage(format!(
+            "--deep and --exposure are for .png; {} is linear and whole already: leave them out",
+            args.output.display()
+        )));
+    }
     let pixels = u64::from(args.width) * u64::from(args.height);
     if pixels > MAX_PIXELS {
         let size = format!("{}x{}", args.width, args.height);

@@ -9,6 +9,7 @@ use lobe::{BlinnPhong, Brdf, CommonNormalization, Lambert, NormalIncidence, Phon
 use serde::de::{DeserializeSeed, Deserializer, Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::io::Read as _;
 use std::path::Path;
 
 /// The materials that have a name, as the JSON that they stand for.
@@ -110,7 +111,7 @@ const MODELS: &[(&str, &[&str])] = &[
 /// What `--brdf` was given: JSON, `@file`, or the name of a preset.
 pub(crate) fn from_argument(argument: &str) -> Result<Spec, Failure> {
     if let Some(file) = argument.strip_prefix('@') {
-        let text = std::fs::read_to_string(file).map_err(|error| {
+        let text = read_some(file).map_err(|error| {
             Failure::Input(format!(
                 "{file}: cannot read this file: {}; after @ stands a file with a BRDF in JSON",
                 reason(&error)
@@ -134,6 +135,17 @@ pub(crate) fn from_argument(argument: &str) -> Result<Spec, Failure> {
     };
     let spec = parse_unnamed(text, name)?;
     Ok(Spec { name: (*name).to_owned(), ..spec })
+}
+
+/// A text of at most a mebibyte; a pipe will do, and `/dev/zero` has an end.
+fn read_some(file: &str) -> std::io::Result<String> {
+    const LIMIT: u64 = 1 << 20;
+    let mut text = String::new();
+    std::fs::File::open(file)?.take(LIMIT + 1).read_to_string(&mut text)?;
+    if text.len() as u64 > LIMIT {
+        return Err(std::io::Error::other("it has more than 1 MiB"));
+    }
+    Ok(text)
 }
 
 /// Reads a BRDF from JSON; `source` is named in errors, as in `source:line:column: what; what would be right`.

@@ -120,6 +120,13 @@ fn wrong_brdfs_say_what_would_be_right() {
     let run = lobe(&["eval", "--brdf", "@no/such.json"], "");
     let right = "after @ stands a file with a BRDF in JSON";
     fails(&run, 3, &format!("no/such.json: cannot read this file: no such file or directory; {right}"));
+    #[cfg(target_os = "linux")]
+    {
+        let run = lobe(&["eval", "--brdf", "@/dev/zero"], "");
+        fails(&run, 3, &format!("/dev/zero: cannot read this file: it has more than 1 MiB; {right}"));
+    }
+    let run = lobe(&["render", "-o", "a.exr", "--deep"], "");
+    fails(&run, 2, "--deep and --exposure are for .png; a.exr is linear and whole already: leave them out");
     let run = lobe(&["plot", "--brdf", "gold-plated"], "");
     assert_eq!(run.code, Some(2));
     assert!(run.err.starts_with("error: unknown preset `gold-plated` for --brdf; the presets are paper, red-plastic"));

@@ -83,13 +83,6 @@ pub struct BlinnTorrance<R = f32> {
     pub q: Shininess<R>,
 }
 
-/// The bracket where the light is above the horizon, 0 elsewhere, NaN kept.
-#[inline(always)]
-fn lit<R: Real>(n_dot_l: R, bracket: Rgb<R>) -> Rgb<R> {
-    let zero = n_dot_l.lift(0.0);
-    Rgb::select(n_dot_l.le(zero), Rgb::splat(zero), bracket)
-}
-
 impl<R: Real> Diffuse<R> {
     /// The ambient term, `k_a k_d`: the same for any number of lights, to be added once.
     #[inline(always)]
@@ -101,7 +94,7 @@ impl<R: Real> Diffuse<R> {
     #[inline(always)]
     pub fn reflected(&self, n: Vec3<R>, l: Vec3<R>) -> Rgb<R> {
         let n_dot_l = n.dot(l);
-        lit(n_dot_l, self.kd * n_dot_l)
+        self.kd * n_dot_l.max(n_dot_l.lift(0.0))
     }
 
     /// The whole equation for one light; `irradiance` is `L_i/r²`.
@@ -123,10 +116,10 @@ impl<R: Real> Phong<R> {
     pub fn reflected(&self, n: Vec3<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
         let n_dot_l = n.dot(l);
         let one_minus_cos = (mirror(l, n) - v).length_squared().times(0.5);
-        let (zero, one) = (n_dot_l.lift(0.0), n_dot_l.lift(1.0));
-        let power = power::mirror_power(one_minus_cos, self.q.0);
-        let power = R::select(one_minus_cos.ge(one), zero, power);
-        lit(n_dot_l, self.kd * n_dot_l + self.ks * power)
+        let (zero, q) = (n_dot_l.lift(0.0), self.q.0);
+        let zero_or_nan = (one_minus_cos * q).times(0.0);
+        let power = power::mirror_power(one_minus_cos, q, n_dot_l.gt(zero)) + zero_or_nan;
+        self.kd * n_dot_l.max(zero) + self.ks * power
     }
 
     /// The whole equation for one light; `irradiance` is `L_i/r²`.
@@ -153,12 +146,13 @@ impl<R: Real> BlinnTorrance<R> {
     #[inline(always)]
     pub fn reflected(&self, n: Vec3<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
         let n_dot_l = n.dot(l);
-        let s = (l + v) * self.q.0.lift(TWO_POW_62);
+        let (zero, q) = (n_dot_l.lift(0.0), self.q.0);
+        let s = (l + v) * q.lift(TWO_POW_62);
         let n_dot_s = n.dot(s);
-        let zero = n_dot_s.lift(0.0);
-        let power = power::half_vector_power(n.cross(s).length_squared(), n_dot_s.squared(), self.q.0);
-        let power = R::select(n_dot_s.le(zero), zero, power);
-        lit(n_dot_l, self.kd * n_dot_l + self.ks * power)
+        let zero_or_nan = (n_dot_s * q).times(0.0);
+        let visible = n_dot_l.gt(zero) & n_dot_s.gt(zero);
+        let power = power::half_vector_power(n.cross(s).length_squared(), n_dot_s.squared(), q, visible) + zero_or_nan;
+        self.kd * n_dot_l.max(zero) + self.ks * power
     }
 
     /// The whole equation for one light; `irradiance` is `L_i/r²`.
@@ -208,6 +202,12 @@ macro_rules! highlight {
             pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> $name<S> {
                 $name::new(self.ks.map(&f), self.q.map(&f))
             }
+
+            #[inline(always)]
+            fn power(&self, l: Vec3<R>, v: Vec3<R>) -> R {
+                // The lobe loses a NaN in `q`; no factor has it here.
+                ($lobe(l, v, self.q.0) + self.q.0.times(0.0)).times(FRAC_1_PI)
+            }
         }
 
         impl<R: Real> Brdf<R> for $name<R> {
@@ -215,12 +215,12 @@ macro_rules! highlight {
             #[inline(always)]
             fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
                 // Selected once more: on the horizon itself the quotient is 0/0.
-                self.ks * above_horizon(l, v, $lobe(l, v, self.q.0).times(FRAC_1_PI) / l.z)
+                self.ks * above_horizon(l, v, self.power(l, v) / l.z)
             }
 
             #[inline(always)]
             fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-                self.ks * $lobe(l, v, self.q.0).times(FRAC_1_PI)
+                self.ks * self.power(l, v)
             }
         }
     };

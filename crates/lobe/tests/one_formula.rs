@@ -97,6 +97,9 @@ impl Real for Lanes {
     fn exp2(self) -> Self {
         elementary::exp2(self)
     }
+    fn exp2_where(self, mask: LaneMask) -> Self {
+        elementary::exp2_where(self, mask)
+    }
     fn log2(self) -> Self {
         elementary::log2(self)
     }
@@ -448,11 +451,11 @@ fn a_recorder_prints_the_formula() {
     let f = Lambert::new(albedo).eval(l, v);
     let source: Vec<_> = arena.borrow().iter().enumerate().map(|(i, n)| format!("t{i} = {n}")).collect();
     let expected = "t0 = l.x; t1 = l.y; t2 = l.z; t3 = v.x; t4 = v.y; t5 = v.z; t6 = albedo; \
-        t7 = 0.3183098861837907; t8 = t5 < t2; t9 = select(t8, t5, t2); t10 = t0 + t3; t11 = t1 + t4; \
-        t12 = t2 + t5; t13 = t10 + t11; t14 = t13 + t12; t15 = 0.0; t16 = t14 * t15; t17 = t16 < t9; \
-        t18 = select(t17, t7, t16); t19 = t6 * t18";
+        t7 = 0.3183098861837907; t8 = t5 < t2; t9 = select(t8, t5, t2); t10 = 0.0; t11 = t10 < t9; \
+        t12 = select(t11, t7, t10); t13 = t0 + t3; t14 = t1 + t4; t15 = t2 + t5; t16 = t13 + t14; t17 = t16 + t15; \
+        t18 = t17 * t10; t19 = t12 + t18; t20 = t6 * t19";
     assert_eq!(source.join("; "), expected);
-    assert_eq!((f.r.id, f.g.id, f.b.id), (19, 19, 19));
+    assert_eq!((f.r.id, f.g.id, f.b.id), (20, 20, 20));
 }
 
 /// Everything else records too, in a size that a shader could have.

@@ -89,19 +89,23 @@ impl<R: Real, B: Brdf<R> + ?Sized> Brdf<R> for &B {
 }
 
 /// `factor` where both directions are above the horizon, 0 elsewhere, NaN where a direction holds one.
-///
-/// A NaN must not be hidden, neither by the zero that is selected below the horizon nor by a factor that does not
-/// depend on the component that holds it. So the zero is made from all six components, and selected where it is NaN.
 #[inline(always)]
 pub(crate) fn above_horizon<R: Real>(l: Vec3<R>, v: Vec3<R>, factor: R) -> R {
-    where_positive(l.z.min(v.z), l, v, factor)
+    R::select(both_above(l, v), factor, factor.lift(0.0)) + zero_or_nan(l, v)
 }
 
-/// `factor` where `condition > 0`, 0 elsewhere, NaN where a direction holds one.
+/// Whether both directions are above the horizon.
 #[inline(always)]
-pub(crate) fn where_positive<R: Real>(condition: R, l: Vec3<R>, v: Vec3<R>, factor: R) -> R {
+pub(crate) fn both_above<R: Real>(l: Vec3<R>, v: Vec3<R>) -> R::Mask {
+    l.z.min(v.z).gt(l.z.lift(0.0))
+}
+
+/// 0, or NaN where a component of either direction is NaN or infinite.
+///
+/// A NaN must not be hidden, neither by the zero that is selected below the horizon nor by a factor that does not
+/// depend on the component that holds it. So this is added to what was selected.
+#[inline(always)]
+pub(crate) fn zero_or_nan<R: Real>(l: Vec3<R>, v: Vec3<R>) -> R {
     let sum = l + v;
-    let zero_or_nan = (sum.x + sum.y + sum.z).times(0.0);
-    // Against a zero that may be NaN: one comparison answers both questions.
-    R::select(condition.gt(zero_or_nan), factor, zero_or_nan)
+    (sum.x + sum.y + sum.z).times(0.0)
 }

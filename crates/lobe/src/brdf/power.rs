@@ -11,7 +11,7 @@
 //!
 //! `docs/numerics.md` derives the bounds.
 
-use super::{above_horizon, where_positive};
+use super::{both_above, zero_or_nan};
 use crate::number::Real;
 use crate::vector::Vec3;
 
@@ -29,23 +29,24 @@ impl<R> Shininess<R> {
     }
 }
 
-/// `(n·h)^q` from `|n × s|²` and `(n·s)²`, where `s = l + v` of any scale.
+/// `(n·h)^q` from `|n × s|²` and `(n·s)²`, where `s = l + v` of any scale; 0 where the mask is false. A NaN is lost.
 #[inline(always)]
-pub(crate) fn half_vector_power<R: Real>(sin2: R, cos2: R, q: R) -> R {
-    (-(q.times(0.5) * sin2.log2_1p_div(cos2))).exp2()
+pub(crate) fn half_vector_power<R: Real>(sin2: R, cos2: R, q: R, mask: R::Mask) -> R {
+    (q.times(-0.5) * sin2.log2_1p_div(cos2)).exp2_where(mask)
 }
 
-/// `(r·v)^q` from `|r − v|²/2 = 1 − r·v < 1`.
+/// `(r·v)^q` from `|r − v|²/2 = 1 − r·v`; 0 where that is not below 1 or the mask is false. A NaN is lost.
 #[inline(always)]
-pub(crate) fn mirror_power<R: Real>(one_minus_cos: R, q: R) -> R {
-    (q * (-one_minus_cos).log2_1p_div(q.lift(1.0))).exp2()
+pub(crate) fn mirror_power<R: Real>(one_minus_cos: R, q: R, mask: R::Mask) -> R {
+    let one = q.lift(1.0);
+    (q * (-one_minus_cos).log2_1p_div(one)).exp2_where(mask & one_minus_cos.lt(one))
 }
 
 /// `(n·h)^q` in the local frame where both directions are above the horizon, else 0 or NaN.
 #[inline(always)]
 pub(crate) fn half_vector_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
     let s = (l + v) * q.lift(TWO_POW_62);
-    above_horizon(l, v, half_vector_power(s.x.squared() + s.y.squared(), s.z.squared(), q))
+    half_vector_power(s.x.squared() + s.y.squared(), s.z.squared(), q, both_above(l, v)) + zero_or_nan(l, v)
 }
 
 /// `max(0, r·v)^q` in the local frame, where the mirror direction of `l` is `(−l.x, −l.y, l.z)`, and where both
@@ -53,9 +54,7 @@ pub(crate) fn half_vector_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
 #[inline(always)]
 pub(crate) fn mirror_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
     let distance2 = (l.x + v.x).squared() + (l.y + v.y).squared() + (l.z - v.z).squared();
-    let one_minus_cos = distance2.times(0.5);
-    let cos = q.lift(1.0) - one_minus_cos;
-    where_positive(l.z.min(v.z).min(cos), l, v, mirror_power(one_minus_cos, q))
+    mirror_power(distance2.times(0.5), q, both_above(l, v)) + zero_or_nan(l, v)
 }
 
 /// Grazing cosines down to 1e-20 have squares below the range of `f32`; times 2⁶² they are normal numbers down to the

@@ -42,41 +42,48 @@ fn round_shifter<F: Binary32>(x: F) -> F {
 /// `2^x`, within 1 ulp on [−126, 128); 0 below, infinite above.
 #[inline(always)]
 pub fn exp2<F: Binary32>(x: F) -> F {
-    exp2_of_sum(x, None)
+    // At 128 the exponent field reaches that of infinity, and the significand is exactly 1.
+    exp2_of_sum(x.min(x.lift(EXP2_MAX)), None)
 }
 
-/// `2^(hi + lo)` for `|lo|` far below `|hi|`.
+/// `2^x` where the mask is true, else 0; 0 below −126 and where `x` is NaN, infinite from 128 on.
+///
+/// What [`exp2`] gives, except for NaN, with a third fewer selects.
+#[inline(always)]
+pub fn exp2_where<F: Binary32>(x: F, mask: F::Mask) -> F {
+    let x = x.min(x.lift(EXP2_MAX));
+    F::select(mask & x.ge(x.lift(EXP2_MIN)), exp2_in_range(x, None), x.lift(0.0))
+}
+
+/// `2^(hi + lo)` for `hi + lo ≤ 128` and `|lo|` far below `|hi|`; 0 below −126.
 #[inline(always)]
 fn exp2_of_sum<F: Binary32>(hi: F, lo: Option<F>) -> F {
-    // At 128 the exponent field below reaches that of infinity, if the significand is exactly 1.
-    let max = hi.lift(EXP2_MAX);
-    let (x, lo) = match lo {
-        None => (hi.min(max), None),
-        Some(lo) => {
-            let beyond = (hi + lo).ge(max);
-            (F::select(beyond, max, hi), Some(F::select(beyond, lo.lift(0.0), lo)))
-        }
-    };
-    // At −127 the result below is exactly 0. Without this bound the exponent field of a far argument wraps around to
-    // that of any float, infinities included: wrong where the select at the end does not catch it (NaN payloads).
-    let x = x.max(x.lift(EXP2_MIN - 1.0));
+    // At −127 the product with 0 below is 0; at −∞ it would be NaN.
+    let hi = hi.max(hi.lift(EXP2_MIN - 1.0));
+    // Below −126 the value is subnormal, and of a NaN the exponent may have made a number. |0 · x| is 0 or NaN.
+    let zero_or_nan = hi.times(0.0).abs();
+    F::select(hi.ge(hi.lift(EXP2_MIN)), exp2_in_range(hi, lo), zero_or_nan)
+}
+
+/// `2^(hi + lo)` for sums from −126 to 128; the bits of any float elsewhere.
+#[inline(always)]
+fn exp2_in_range<F: Binary32>(hi: F, lo: Option<F>) -> F {
     // Split off the integer: exact.
-    let shifter = round_shifter(x);
-    let r = x - shifter.plus(-SHIFT);
+    let shifter = round_shifter(hi);
+    let r = hi - shifter.plus(-SHIFT);
     let r = lo.map_or(r, |lo| r + lo);
     // 2^r = 1 + r ln 2 + r² Q(r) on [−1/2, 1/2]. Even and odd terms side by side: the chain is half as long.
     let r2 = r * r;
     let q01 = r.times(EXP2_Q1).plus(EXP2_Q0);
     let q23 = r.times(EXP2_Q3).plus(EXP2_Q2);
     let q = q01 + r2 * (q23 + r2.times(EXP2_Q4));
-    // What 1 + r ln 2 rounds off is added last. Without it the error is 1.04 ulp.
+    // What 1 + r ln 2 rounds off is added last. Without it the error is 1.04 ulp. (A range from log₂ 3/4 to log₂ 3/2
+    // would do without, if only the integer could be split off exactly there: from −0.4151 it leaves 0.5849, a bit
+    // longer.)
     let linear = r.times(EXP2_LINEAR);
     let head = linear.plus(1.0);
     let tail = (linear - head.plus(-1.0)) + r2 * q;
-    let value = (head + tail).add_exponent(shifter);
-    // Between −127 and −126 it is subnormal, and of a NaN the exponent may have made a number. |0 · x| is 0 or NaN.
-    let zero_or_nan = x.times(0.0).abs();
-    F::select(x.ge(x.lift(EXP2_MIN)), value, zero_or_nan)
+    (head + tail).add_exponent(shifter)
 }
 
 // ln 2 and Q(r), minimax on |r| ≤ 1/2.
@@ -219,7 +226,10 @@ pub fn pow<F: Binary32>(x: F, y: F) -> F {
     let (log_hi, log_lo) = log2_of_positive(x);
     let y_hi = y_in_range.high_part();
     let lo = (y_in_range - y_hi) * log_hi + y_in_range * log_lo;
-    let value = exp2_of_sum(y_hi * log_hi, Some(lo));
+    let hi = y_hi * log_hi;
+    let max = hi.lift(EXP2_MAX);
+    let beyond = (hi + lo).ge(max);
+    let value = exp2_of_sum(F::select(beyond, max, hi), Some(F::select(beyond, zero, lo)));
     // 0 and ∞ have no logarithm to multiply.
     let vanishes = (x.eq(zero) & y.gt(zero)) | (x.eq(infinity) & y.lt(zero));
     let at_limit = F::select(vanishes, zero, infinity);

@@ -88,6 +88,14 @@ pub trait Real:
     /// `log₂(1 + tan²θ)` down to the horizon. In `f32`: a relative error of at most 5·2⁻²⁴, for
     /// `denominator` and `self + denominator` from the smallest normal number to 2¹²⁷.
     fn log2_1p_div(self, denominator: Self) -> Self;
+    /// `2^self` where the mask is true, 0 elsewhere. In `f32` a NaN in `self` gives 0 too: whoever must keep it adds
+    /// it again.
+    ///
+    /// The last step of most lobes, where a zero is selected anyway: one select, not two.
+    #[inline(always)]
+    fn exp2_where(self, mask: Self::Mask) -> Self {
+        Self::select(mask, self.exp2(), self.lift(0.0))
+    }
     /// `self^exponent` for `self ≥ 0`; `x^0 = 1` for every `x` that is not NaN, `0^y = 0` for `y > 0`.
     ///
     /// A negative base gives NaN, whatever the exponent: shading has no use for its sign, and a NaN is seen where a

@@ -45,6 +45,10 @@ impl Real for f32 {
         elementary::exp2(self)
     }
     #[inline(always)]
+    fn exp2_where(self, mask: bool) -> Self {
+        elementary::exp2_where(self, mask)
+    }
+    #[inline(always)]
     fn log2(self) -> Self {
         elementary::log2(self)
     }
