@@ -50,20 +50,25 @@ extern crate std;
 
 pub mod brdf;
 mod color;
+pub mod distribution;
 mod frame;
+pub mod fresnel;
 pub mod illumination;
 pub mod light;
+pub mod masking;
 pub mod number;
+mod parameter;
 mod vector;
 
 pub use brdf::{
-    Black, BlinnPhong, Brdf, CommonNormalization, Delta, Lambert, Mirror, NormalIncidence, Normalization, Phong,
-    Shininess, Sum,
+    Black, BlinnPhong, Brdf, CommonNormalization, Delta, Lambert, Microfacet, Mirror, NormalIncidence, Normalization,
+    Phong, Shininess, Sum,
 };
 pub use color::Rgb;
 pub use frame::{Frame, interpolate_normal};
 pub use light::{AmbientLight, DirectionalLight, Incident, PointLight};
 pub use number::{Mask, Real};
+pub use parameter::Alpha;
 pub use vector::{Vec3, halfway, mirror, reflect};
 
 /// The examples of the README run as tests.

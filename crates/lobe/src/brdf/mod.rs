@@ -16,6 +16,7 @@
 
 mod blinn_phong;
 mod lambert;
+mod microfacet;
 mod mirror;
 mod phong;
 pub(crate) mod power;
@@ -23,6 +24,7 @@ mod sum;
 
 pub use blinn_phong::{BlinnPhong, CommonNormalization, NormalIncidence, Normalization};
 pub use lambert::Lambert;
+pub use microfacet::Microfacet;
 pub use mirror::{Delta, Mirror};
 pub use phong::Phong;
 pub use power::Shininess;

@@ -106,6 +106,16 @@ pub trait Real:
     /// In `f32`: each within 1 ulp for `|self| ≤ 512`, which is 81 turns; NaN beyond. `f64` has no such limit.
     fn sin_cos(self) -> (Self, Self);
 
+    /// `eˣ`, as `2^(x log₂ e)`: the relative error is that of [`exp2`](Self::exp2) and `2u |x|`.
+    #[inline(always)]
+    fn exp(self) -> Self {
+        self.times(core::f64::consts::LOG2_E).exp2()
+    }
+    /// `ln self`, as `ln 2 log₂ x`, within `3u`.
+    #[inline(always)]
+    fn ln(self) -> Self {
+        self.log2().times(core::f64::consts::LN_2)
+    }
     /// `self > other`; false if either is NaN.
     #[inline(always)]
     fn gt(self, other: Self) -> Self::Mask {

@@ -1,0 +1,149 @@
+//! Parameters: their names, domains and values.
+
+use std::fmt;
+
+/// The smallest and the largest width α of a microfacet distribution.
+pub(crate) const ALPHA: (f64, f64) = (1e-4, 1.0);
+
+/// A parameter of a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name in JSON and on the command line.
+    pub name: &'static str,
+    /// What it may be.
+    pub kind: Kind,
+    /// What it is if it is not given; `None` if it must be given.
+    pub default: Option<Value>,
+    /// What it means, in a few words.
+    pub doc: &'static str,
+}
+
+/// What a parameter may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// Linear RGB, each channel from 0 to `max`.
+    Colour {
+        /// The largest channel.
+        max: f64,
+    },
+    /// A number.
+    Number {
+        /// The smallest.
+        min: f64,
+        /// The largest.
+        max: f64,
+    },
+    /// A width α of a distribution, or `[αx, αy]`: from 1e-4 to 1.
+    Widths,
+    /// One of some words.
+    Choice(&'static [&'static str]),
+}
+
+/// The value of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// Linear RGB.
+    Colour([f64; 3]),
+    /// A number.
+    Number(f64),
+    /// `[αx, αy]`.
+    Widths([f64; 2]),
+    /// A word.
+    Choice(&'static str),
+}
+
+impl Parameter {
+    /// A colour from 0 to 1 that must be given.
+    #[must_use]
+    pub const fn reflectance(name: &'static str, doc: &'static str) -> Self {
+        Self { name, kind: Kind::Colour { max: 1.0 }, default: None, doc }
+    }
+
+    /// A number that must be given.
+    #[must_use]
+    pub const fn number(name: &'static str, min: f64, max: f64, doc: &'static str) -> Self {
+        Self { name, kind: Kind::Number { min, max }, default: None, doc }
+    }
+
+    /// The exponent `q`.
+    #[must_use]
+    pub const fn shininess() -> Self {
+        Self::number("q", 0.0, 1e6, "the exponent q")
+    }
+
+    /// The width `alpha`.
+    #[must_use]
+    pub const fn alpha() -> Self {
+        Self {
+            name: "alpha", kind: Kind::Widths, default: None, doc: "the width α of the distribution, or [αx, αy]"
+        }
+    }
+
+    /// A word out of some, the first by default.
+    #[must_use]
+    pub const fn choice(name: &'static str, words: &'static [&'static str], doc: &'static str) -> Self {
+        let default = match words {
+            [first, ..] => Some(Value::Choice(first)),
+            [] => None,
+        };
+        Self { name, kind: Kind::Choice(words), default, doc }
+    }
+
+    /// The same parameter with a default.
+    #[must_use]
+    pub const fn or(self, default: Value) -> Self {
+        Self { default: Some(default), ..self }
+    }
+
+    /// The value, if it is in the domain; for a choice, the model's own copy of the word.
+    ///
+    /// # Errors
+    /// What was wrong and what would be right.
+    pub fn check(&self, value: Value) -> Result<Value, Error> {
+        let inside = |x: f64, min: f64, max: f64| x.is_finite() && x >= min && x <= max;
+        let (good, right) = match (self.kind, value) {
+            (Kind::Colour { max }, Value::Colour(c)) => {
+                (c.iter().all(|&x| inside(x, 0.0, max)), format!("a colour from 0 to {max}"))
+            }
+            (Kind::Colour { max }, _) => (false, format!("a colour from 0 to {max}")),
+            (Kind::Number { min, max }, Value::Number(x)) => {
+                (inside(x, min, max), format!("a number from {min} to {max}"))
+            }
+            (Kind::Number { min, max }, _) => (false, format!("a number from {min} to {max}")),
+            (Kind::Widths, Value::Widths(a)) => {
+                (a.iter().all(|&x| inside(x, ALPHA.0, ALPHA.1)), "a width from 0.0001 to 1, or two".to_owned())
+            }
+            (Kind::Widths, _) => (false, "a width from 0.0001 to 1, or two".to_owned()),
+            (Kind::Choice(words), Value::Choice(word)) => match words.iter().find(|w| **w == word) {
+                Some(own) => return Ok(Value::Choice(own)),
+                None => (false, format!("one of {}", words.join(", "))),
+            },
+            (Kind::Choice(words), _) => (false, format!("one of {}", words.join(", "))),
+        };
+        if good { Ok(value) } else { Err(Error(format!("`{}` is {value}; {right}", self.name))) }
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Colour(c) => write!(f, "{c:?}"),
+            Self::Number(x) => write!(f, "{x:?}"),
+            Self::Widths([x, y]) if x == y => write!(f, "{x:?}"),
+            Self::Widths(a) => write!(f, "{a:?}"),
+            Self::Choice(word) => write!(f, "`{word}`"),
+        }
+    }
+}
+
+/// What was wrong with a parameter, and what would be right.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error(pub(crate) String);
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Error {}

@@ -1,0 +1,55 @@
+//! Beckmann: `D = exp(−t)/(π αx αy h.z⁴)`, `t = (h.x²/αx² + h.y²/αy²)/h.z²`.
+
+use super::{Distribution, Widths};
+use crate::Alpha;
+use crate::number::Real;
+use crate::vector::Vec3;
+
+/// Beckmann, slopes that are normally distributed: `D = exp(−t)/(π αx αy h.z⁴)`, `t = (h.x²/αx² + h.y²/αy²)/h.z²`.
+///
+/// Beckmann and Spizzichino, *The Scattering of Electromagnetic Waves from Rough Surfaces*, 1963; Cook and Torrance,
+/// "A Reflectance Model for Computer Graphics", SIGGRAPH 1981, without their factor 1/π; Walter et al. 2007,
+/// equation 25.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beckmann<R = f32> {
+    widths: Widths<R>,
+}
+
+impl<R: Real> Beckmann<R> {
+    /// The isotropic distribution; `α` is the `m` of Cook and Torrance.
+    #[inline(always)]
+    pub fn new(alpha: Alpha<R>) -> Self {
+        Self::anisotropic(alpha, alpha)
+    }
+
+    /// The distribution with one width along the tangent and one along the bitangent.
+    #[inline(always)]
+    pub fn anisotropic(x: Alpha<R>, y: Alpha<R>) -> Self {
+        Self { widths: Widths::new(x, y) }
+    }
+
+    /// `αx` and `αy`.
+    #[inline(always)]
+    pub fn alpha(&self) -> (Alpha<R>, Alpha<R>) {
+        (self.widths.x, self.widths.y)
+    }
+
+    /// The same distribution in another number type.
+    #[inline(always)]
+    pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> Beckmann<S> {
+        Beckmann::anisotropic(self.widths.x.map(&f), self.widths.y.map(&f))
+    }
+}
+
+impl<R: Real> Distribution<R> for Beckmann<R> {
+    #[inline(always)]
+    fn d(&self, h: Vec3<R>) -> R {
+        let z2 = h.z.squared();
+        let t = self.widths.stretched(h) / z2;
+        // For α ≤ 1 such a t leaves z² above 1/101, and beyond it exp(−t) is 0 in f32. Without the select the quotient
+        // is 0/0 towards the horizon, where z⁴ underflows.
+        let visible = t.lt(t.lift(100.0));
+        let value = self.widths.peak * t.times(-core::f64::consts::LOG2_E).exp2_where(visible) / z2.squared();
+        R::select(visible, value, t.lift(0.0))
+    }
+}

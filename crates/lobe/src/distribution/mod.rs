@@ -1,0 +1,69 @@
+//! `D`: how the normals of the microfacets are distributed, one file a distribution.
+//!
+//! `D(h)` in sr⁻¹ is the area of the facets with normal `h` per area of the surface and solid angle, so that
+//! `∫ D(h) (n·h) dω = 1` over the hemisphere. `h` is a unit vector of the local frame.
+//!
+//! Every function here takes vectors, never cosines: with `α = 0.01` a GGX from `1 − (n·h)²` in `f32` is wrong by tens
+//! of percent, from the components of `h` by 5e-7.
+
+mod beckmann;
+mod ggx;
+
+pub use beckmann::Beckmann;
+pub use ggx::Ggx;
+
+use crate::number::Real;
+use crate::vector::Vec3;
+
+/// A distribution of microfacet normals.
+pub trait Distribution<R: Real> {
+    /// `D(h)` in sr⁻¹ for a unit vector `h` with `h.z ≥ 0`.
+    fn d(&self, h: Vec3<R>) -> R;
+}
+
+/// A distribution whose Smith function `Λ` is known.
+///
+/// `Λ(w)` is what Smith's masking `G₁(w) = 1/(1 + Λ(w))` needs; without shadowing `(1 + Λ(w)) cos θ_w` is the area of
+/// the microfacets that face `w`, projected (Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based
+/// BRDFs", JCGT 3(2), 2014, equations 12 to 17).
+pub trait SmithLambda<R: Real>: Distribution<R> {
+    /// `Λ(w) cos θ_w`, for a unit vector `w` with `w.z ≥ 0`: finite to the horizon, where `Λ` itself is not.
+    fn lambda_cos(&self, w: Vec3<R>) -> R;
+
+    /// `G₁(w) = 1/(1 + Λ(w))`, at most 1 to the last bit.
+    #[inline(always)]
+    fn g1(&self, w: Vec3<R>) -> R {
+        w.z / (w.z + self.lambda_cos(w))
+    }
+}
+
+/// The two widths of a distribution that may be anisotropic, along the tangent x and the bitangent y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Widths<R> {
+    pub(crate) x: crate::Alpha<R>,
+    pub(crate) y: crate::Alpha<R>,
+    /// `1/αx`, `1/αy`.
+    inverse: (R, R),
+    /// `1/(π αx αy)`: the value of GGX and Beckmann at the peak.
+    pub(crate) peak: R,
+}
+
+impl<R: Real> Widths<R> {
+    #[inline(always)]
+    pub(crate) fn new(x: crate::Alpha<R>, y: crate::Alpha<R>) -> Self {
+        let inverse = (x.recip(), y.recip());
+        Self { x, y, inverse, peak: (inverse.0 * inverse.1).times(core::f64::consts::FRAC_1_PI) }
+    }
+
+    /// `(w.x/αx)² + (w.y/αy)²`.
+    #[inline(always)]
+    pub(crate) fn stretched(&self, w: Vec3<R>) -> R {
+        (w.x * self.inverse.0).squared() + (w.y * self.inverse.1).squared()
+    }
+
+    /// `(αx w.x)² + (αy w.y)²`.
+    #[inline(always)]
+    pub(crate) fn shrunk(&self, w: Vec3<R>) -> R {
+        (w.x * self.x.0).squared() + (w.y * self.y.0).squared()
+    }
+}

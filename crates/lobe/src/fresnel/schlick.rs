@@ -1,0 +1,44 @@
+//! Schlick: `F = f0 + (f90 − f0)(1 − cos θ)⁵`.
+
+use super::{Fresnel, Incidence};
+use crate::color::Rgb;
+use crate::number::Real;
+
+/// Schlick's approximation: `F = f0 + (f90 − f0)(1 − cos θ)⁵`.
+///
+/// Schlick, "An Inexpensive BRDF Model for Physically-Based Rendering", 1994, equation 15, where `f90` is 1.
+/// Domain: `f0`, `f90` in `[0, 1]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Schlick<R = f32> {
+    f0: Rgb<R>,
+    f90: Rgb<R>,
+}
+
+impl<R: Real> Schlick<R> {
+    /// The form with `f90 = 1`.
+    #[inline(always)]
+    pub fn new(f0: Rgb<R>) -> Self {
+        Self::with_f90(f0, Rgb::splat(f0.r.lift(1.0)))
+    }
+
+    /// The form with a reflectance at grazing incidence of its own.
+    #[inline(always)]
+    pub fn with_f90(f0: Rgb<R>, f90: Rgb<R>) -> Self {
+        Self { f0, f90 }
+    }
+
+    /// The same form in another number type.
+    #[inline(always)]
+    pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> Schlick<S> {
+        Schlick::with_f90(self.f0.map(&f), self.f90.map(&f))
+    }
+}
+
+impl<R: Real> Fresnel<R> for Schlick<R> {
+    #[inline(always)]
+    fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R> {
+        let x = incidence.one_minus_cos();
+        let x2 = x.squared();
+        self.f0 + (self.f90 - self.f0) * (x2.squared() * x)
+    }
+}

@@ -1,0 +1,24 @@
+//! `G`: which part of the microfacets is both seen and lit, one file a model.
+//!
+//! What a BRDF needs is the *visibility* `V = G/(4 (n·l)(n·v))`, which has no cosine in its denominator that the
+//! numerator does not tame.
+
+mod smith;
+
+pub use smith::{SmithCorrelated, SmithSeparable};
+
+use crate::number::Real;
+use crate::vector::Vec3;
+
+/// A masking and shadowing function for facets of the distribution `D`.
+pub trait Masking<R: Real, D> {
+    /// `weight · G(l, v)/(4 (n·l)(n·v))`, for unit vectors above the horizon, `h` between them and `cos_d = l·h = v·h`.
+    ///
+    /// The weight is 1 or `n·l`. It is a factor of the numerator before the division, so that with `n·l` the result
+    /// stays finite to the last float of a cosine.
+    fn visibility(&self, distribution: &D, l: Vec3<R>, v: Vec3<R>, h: Vec3<R>, cos_d: R, weight: R) -> R;
+}
+
+/// Cosines are scaled by 2⁶² before they are multiplied with each other or with a small width: at the smallest normal
+/// cosine the product would be subnormal and lose its digits (test `eval_cos_keeps_its_digits_at_the_horizon`).
+pub(crate) const SCALE: f64 = (1u64 << 62) as f64;
