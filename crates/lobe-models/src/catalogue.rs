@@ -4,6 +4,7 @@ use crate::families;
 use crate::number::{AnyBrdf, Number};
 use crate::parameter::{Error, Parameter, Value};
 use crate::reader::Reader;
+use lobe::Vec3;
 
 /// A model by name.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +19,35 @@ pub struct Model {
     pub reciprocal: bool,
     /// Whether `eval` stays finite for cosines down to 1e-20; `eval_cos` does for every model.
     pub finite: bool,
+    /// How far `f32` may be from `f64` of the same inputs.
+    pub bound: Bound,
+    pub(crate) build: Constructors,
+}
+
+/// How far `f32` may be from `f64` of the same `f32` inputs and parameters, relatively.
+#[derive(Clone, Copy, Debug)]
+pub enum Bound {
+    /// [`Bound::WORST`], everywhere in the domain.
+    Constant,
+    /// The condition number of the formula itself forbids a constant: that of an exponential is its argument. The
+    /// bound grows with how far down the lobe a value is, and with nothing else.
+    Derived {
+        /// The bound in a line, for tables; `L` is `|ln(f/f_max)|` and `u` is 2⁻²⁴.
+        formula: &'static str,
+        /// The bound for these parameters and directions; infinite where it says nothing: where the first order of the
+        /// derivation ends, and below 2⁻¹²⁶ of the peak.
+        at: fn(&Reader<'_, f64>, Vec3<f64>, Vec3<f64>) -> f64,
+    },
+}
+
+impl Bound {
+    /// The largest relative error of a model whose bound is constant.
+    pub const WORST: f64 = 2e-5;
+}
+
+/// The model's constructor in each number type; a function pointer cannot be generic. Made by `constructors!`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Constructors {
     pub(crate) f32: fn(&Reader<'_, f32>) -> AnyBrdf<f32>,
     pub(crate) f64: fn(&Reader<'_, f64>) -> AnyBrdf<f64>,
 }
@@ -90,5 +120,15 @@ impl Lobe {
     #[must_use]
     pub fn build<R: Number>(&self) -> AnyBrdf<R> {
         R::constructor(self.model)(&Reader::new(self.model.parameters, &self.values))
+    }
+
+    /// How far `f32` may be from `f64` of the same inputs, relatively, for these directions; infinite where the bound
+    /// says nothing.
+    #[must_use]
+    pub fn tolerance(&self, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+        match self.model.bound {
+            Bound::Constant => Bound::WORST,
+            Bound::Derived { at, .. } => at(&Reader::new(self.model.parameters, &self.values), l, v),
+        }
     }
 }

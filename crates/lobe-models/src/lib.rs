@@ -23,7 +23,7 @@ mod number;
 mod parameter;
 mod reader;
 
-pub use catalogue::{Lobe, Model, model, models};
+pub use catalogue::{Bound, Lobe, Model, model, models};
 pub use number::{AnyBrdf, Number};
 pub use parameter::{Error, Kind, Parameter, Value};
 pub use reader::Reader;

@@ -22,7 +22,7 @@ impl Number for f32 {
         value as f32
     }
     fn constructor(model: &Model) -> fn(&Reader<'_, Self>) -> AnyBrdf<Self> {
-        model.f32
+        model.build.f32
     }
 }
 
@@ -31,6 +31,6 @@ impl Number for f64 {
         value
     }
     fn constructor(model: &Model) -> fn(&Reader<'_, Self>) -> AnyBrdf<Self> {
-        model.f64
+        model.build.f64
     }
 }

@@ -1,11 +1,16 @@
 //! Lambert, Phong, Blinn-Phong, and the lecture's highlights.
 
-use super::model;
-use crate::{AnyBrdf, Model, Number, Parameter, Reader};
+use super::{constructors, model};
+use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader};
 use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
-use lobe::{BlinnPhong, CommonNormalization, Lambert, NormalIncidence, Phong};
+use lobe::{BlinnPhong, CommonNormalization, Lambert, NormalIncidence, Phong, Vec3};
 
 const KS: Parameter = Parameter::reflectance("ks", "the reflectance of the lobe");
+
+/// `docs/numerics.md`, "The half-vector lobe".
+const HALF_VECTOR: Bound = Bound::Derived { formula: "u (14 + 14 L)", at: half_vector };
+/// `docs/numerics.md`, "The mirror lobe".
+const MIRROR: Bound = Bound::Derived { formula: "u (7 + 6 L + 5 q (1/(r·v) - 1))", at: mirror };
 
 pub(super) const MODELS: &[Model] = &[
     model! {
@@ -22,6 +27,7 @@ pub(super) const MODELS: &[Model] = &[
         parameters: &[KS, Parameter::shininess()],
         reciprocal: true,
         finite: true,
+        bound: MIRROR,
         build: |p| Phong::new(p.rgb("ks"), p.shininess()),
     },
     Model {
@@ -34,8 +40,8 @@ pub(super) const MODELS: &[Model] = &[
         ],
         reciprocal: true,
         finite: true,
-        f32: blinn_phong,
-        f64: blinn_phong,
+        bound: HALF_VECTOR,
+        build: constructors!(blinn_phong),
     },
     model! {
         name: "lecture-phong",
@@ -43,6 +49,7 @@ pub(super) const MODELS: &[Model] = &[
         parameters: &[KS, Parameter::shininess()],
         reciprocal: false,
         finite: false,
+        bound: MIRROR,
         build: |p| PhongHighlight::new(p.rgb("ks"), p.shininess()),
     },
     model! {
@@ -51,6 +58,7 @@ pub(super) const MODELS: &[Model] = &[
         parameters: &[KS, Parameter::shininess()],
         reciprocal: false,
         finite: false,
+        bound: HALF_VECTOR,
         build: |p| BlinnTorranceHighlight::new(p.rgb("ks"), p.shininess()),
     },
 ];
@@ -61,4 +69,25 @@ fn blinn_phong<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
         "common" => Box::new(BlinnPhong::<R, CommonNormalization>::with_normalization(ks, q)),
         _ => Box::new(BlinnPhong::<R, NormalIncidence>::with_normalization(ks, q)),
     }
+}
+
+/// The unit roundoff of `f32`.
+const U: f64 = 1.0 / 16_777_216.0;
+/// `−ln 2⁻¹²⁶`: so far below the peak, and further, a lobe is 0.
+const END: f64 = 126.0 * std::f64::consts::LN_2;
+
+fn half_vector(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+    let s = l + v;
+    let tan2 = (s.x * s.x + s.y * s.y) / (s.z * s.z);
+    let depth = 0.5 * p.number("q") * tan2.ln_1p();
+    if depth < END { U * (14.0 + 14.0 * depth) } else { f64::INFINITY }
+}
+
+fn mirror(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+    let q = p.number("q");
+    let d = Vec3::new(l.x + v.x, l.y + v.y, l.z - v.z);
+    let c = 1.0 - 0.5 * d.dot(d);
+    let depth = -q * c.ln();
+    // Below 2⁻¹² the relative error of r·v itself is no longer small, and the first order ends.
+    if c > 1.0 / 4096.0 && depth < END { U * (7.0 + 6.0 * depth + 5.0 * q * (1.0 / c - 1.0)) } else { f64::INFINITY }
 }

@@ -1,6 +1,7 @@
 //! The microfacet model of any terms.
 
-use crate::{AnyBrdf, Model, Number, Parameter, Reader};
+use super::constructors;
+use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader};
 use lobe::distribution::{Ggx, SmithLambda};
 use lobe::fresnel::{Fresnel, Incidence, Schlick};
 use lobe::masking::{SmithCorrelated, SmithSeparable};
@@ -17,8 +18,8 @@ pub(super) const MODELS: &[Model] = &[Model {
     ],
     reciprocal: true,
     finite: true,
-    f32: microfacet,
-    f64: microfacet,
+    bound: Bound::Constant,
+    build: constructors!(microfacet),
 }];
 
 /// A form of `F` chosen at run time.

@@ -8,13 +8,30 @@ use crate::catalogue::Model;
 /// All families.
 pub(crate) const ALL: &[&[Model]] = &[classic::MODELS, microfacet::MODELS];
 
-/// A [`Model`] with its constructor in each number type.
+/// The constructors of a model in each number type, from the name of a generic function of a [`Reader`](crate::Reader).
+macro_rules! constructors {
+    ($build:ident) => {
+        crate::catalogue::Constructors { f32: $build, f64: $build }
+    };
+}
+pub(crate) use constructors;
+
+/// A [`Model`] whose constructor is one expression; its bound is constant unless it says otherwise.
 ///
 /// `build` reads like a closure over a [`Reader`](crate::Reader) and is compiled as a generic function.
 macro_rules! model {
     (
         name: $name:literal, summary: $summary:literal, parameters: $parameters:expr,
         reciprocal: $reciprocal:literal, finite: $finite:literal, build: |$reader:ident| $build:expr $(,)?
+    ) => {
+        crate::families::model! {
+            name: $name, summary: $summary, parameters: $parameters, reciprocal: $reciprocal, finite: $finite,
+            bound: crate::Bound::Constant, build: |$reader| $build,
+        }
+    };
+    (
+        name: $name:literal, summary: $summary:literal, parameters: $parameters:expr, reciprocal: $reciprocal:literal,
+        finite: $finite:literal, bound: $bound:expr, build: |$reader:ident| $build:expr $(,)?
     ) => {{
         fn build<R: crate::Number>($reader: &crate::Reader<'_, R>) -> crate::AnyBrdf<R> {
             Box::new($build)
@@ -25,8 +42,8 @@ macro_rules! model {
             parameters: $parameters,
             reciprocal: $reciprocal,
             finite: $finite,
-            f32: build::<f32>,
-            f64: build::<f64>,
+            bound: $bound,
+            build: crate::families::constructors!(build),
         }
     }};
 }
