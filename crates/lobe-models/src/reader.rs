@@ -41,6 +41,12 @@ impl<'a, R: Number> Reader<'a, R> {
         R::from_f64(x)
     }
 
+    /// Whether a number is exactly 0: what it stands for is not there.
+    #[must_use]
+    pub fn is_zero(&self, name: &str) -> bool {
+        self.value(name) == Some(Value::Number(0.0))
+    }
+
     /// The exponent `q`.
     #[must_use]
     pub fn shininess(&self) -> Shininess<R> {

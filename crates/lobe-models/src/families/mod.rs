@@ -1,12 +1,13 @@
 //! The models, a file a family.
 
 mod classic;
+mod layered;
 mod microfacet;
 
 use crate::catalogue::Model;
 
 /// All families.
-pub(crate) const ALL: &[&[Model]] = &[classic::MODELS, microfacet::MODELS];
+pub(crate) const ALL: &[&[Model]] = &[classic::MODELS, layered::MODELS, microfacet::MODELS];
 
 /// The constructors of a model in each number type, from the name of a generic function of a [`Reader`](crate::Reader).
 macro_rules! constructors {

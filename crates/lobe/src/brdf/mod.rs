@@ -15,6 +15,8 @@
 //! The lecture's unnormalised highlights are in [`illumination`](crate::illumination).
 
 mod blinn_phong;
+mod coat;
+mod gltf;
 mod lambert;
 mod microfacet;
 mod mirror;
@@ -23,6 +25,8 @@ pub(crate) mod power;
 mod sum;
 
 pub use blinn_phong::{BlinnPhong, CommonNormalization, NormalIncidence, Normalization};
+pub use coat::Coat;
+pub use gltf::{Clearcoat, MetallicRoughness, emission};
 pub use lambert::Lambert;
 pub use microfacet::Microfacet;
 pub use mirror::{Delta, Mirror};

@@ -33,6 +33,12 @@ impl<R: Real> Incidence<R> {
         Self { cos, sin2: (l - v).length_squared().times(0.25) }
     }
 
+    /// The angle between a unit vector of the local frame and the normal.
+    #[inline(always)]
+    pub fn of(w: Vec3<R>) -> Self {
+        Self { cos: w.z, sin2: w.x.squared() + w.y.squared() }
+    }
+
     /// `1 − cos θ = sin² θ/(1 + cos θ)`, to the last digits at every angle.
     #[inline(always)]
     pub fn one_minus_cos(self) -> R {
@@ -44,4 +50,10 @@ impl<R: Real> Incidence<R> {
 pub trait Fresnel<R: Real> {
     /// `F(θ)` for the angle between the light and the normal of the facet; in `[0, 1]`.
     fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R>;
+
+    /// `1 − F(θ)`: what passes the interface. A form that can tell it without the difference overrides this.
+    #[inline(always)]
+    fn transmitted(&self, incidence: Incidence<R>) -> Rgb<R> {
+        Rgb::splat(incidence.cos.lift(1.0)) - self.fresnel(incidence)
+    }
 }

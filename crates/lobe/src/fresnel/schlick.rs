@@ -41,4 +41,14 @@ impl<R: Real> Fresnel<R> for Schlick<R> {
         let x2 = x.squared();
         self.f0 + (self.f90 - self.f0) * (x2.squared() * x)
     }
+
+    /// `(1 − f0)(1 − x⁵) + (1 − f90) x⁵`, with `1 − x⁵ = cos θ (1 + x + x² + x³ + x⁴)`: nothing cancels towards grazing
+    /// incidence.
+    #[inline(always)]
+    fn transmitted(&self, incidence: Incidence<R>) -> Rgb<R> {
+        let (x, one) = (incidence.one_minus_cos(), incidence.cos.lift(1.0));
+        let x5 = x.squared().squared() * x;
+        let one_minus_x5 = incidence.cos * (one + x * (one + x * (one + x * (one + x))));
+        (Rgb::splat(one) - self.f0) * one_minus_x5 + (Rgb::splat(one) - self.f90) * x5
+    }
 }

@@ -1,0 +1,209 @@
+//! glTF 2.0: `mix(fresnel_mix(ρ/π, S), F_metal S, metallic)`, `S` a GGX without Fresnel.
+
+use super::{Brdf, above_horizon};
+use crate::Alpha;
+use crate::color::Rgb;
+use crate::distribution::{Distribution, Ggx};
+use crate::fresnel::Incidence;
+use crate::masking::{Masking, SmithCorrelated, SmithSeparable};
+use crate::number::Real;
+use crate::vector::Vec3;
+use core::f64::consts::FRAC_1_PI;
+
+/// The metallic-roughness material of glTF 2.0, as its appendix B has it:
+///
+/// ```text
+/// f = mix(dielectric, metal, metallic)
+/// dielectric = (1 − w max(F_d)) base/π + w F_d S    F_d = f0 + (1 − f0)(1 − l·h)⁵
+/// metal      = F_m S                                F_m = base + (1 − base)(1 − l·h)⁵
+/// S          = D G/(4 (n·l)(n·v))                   D is GGX
+/// ```
+///
+/// Khronos, *glTF 2.0 Specification*, appendix B.2 and B.3, with `α` the square of the material's `roughness`. `G` is
+/// the product of two Smith terms there; `KHR_materials_anisotropy` has the height-correlated one, and
+/// [`with_anisotropy`](Self::with_anisotropy) changes to it.
+///
+/// `f0` is 0.04, or by `KHR_materials_ior` `((η − 1)/(η + 1))²`; `KHR_materials_specular` scales it with a colour (at
+/// most to 1) and everything that the dielectric reflects with the weight `w`.
+///
+/// Reciprocal to the last bit: both Fresnel terms depend on the half vector alone. Where `1 − F` would cancel, it is
+/// formed from `1 − x⁵ = (1 − x)(1 + x + x² + x³ + x⁴)`.
+///
+/// Domain: colours, `metallic` and `w` in `[0, 1]`, the specular colour not negative, `α ∈ [1e-4, 1]`, which is a
+/// roughness from 0.01.
+///
+/// ```
+/// use lobe::{Alpha, Brdf, MetallicRoughness, Rgb, Vec3};
+/// let roughness = 0.4_f32;
+/// let gold = MetallicRoughness::new(Rgb::new(1.0, 0.77, 0.34), 1.0, Alpha(roughness * roughness));
+/// let f = gold.eval(Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.6, 0.0, 0.8));
+/// assert!(f.r > f.g && f.g > f.b);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MetallicRoughness<R = f32, G = SmithSeparable> {
+    base_color: Rgb<R>,
+    metallic: R,
+    distribution: Ggx<R>,
+    masking: G,
+    /// `f0` of the dielectric, at most 1.
+    f0: Rgb<R>,
+    /// `w`.
+    specular: R,
+}
+
+impl<R: Real> MetallicRoughness<R> {
+    /// The material without extensions: `f0 = 0.04`, `w = 1`.
+    #[inline(always)]
+    pub fn new(base_color: Rgb<R>, metallic: R, alpha: Alpha<R>) -> Self {
+        let f0 = Rgb::splat(metallic.lift(0.04));
+        Self {
+            base_color,
+            metallic,
+            distribution: Ggx::new(alpha),
+            masking: SmithSeparable,
+            f0,
+            specular: metallic.lift(1.0),
+        }
+    }
+
+    /// `KHR_materials_anisotropy`: along the tangent the width grows to `mix(α, 1, strength²)`; to be called last.
+    ///
+    /// The rotation of the extension is that of the tangent frame: it is the caller's.
+    #[inline(always)]
+    pub fn with_anisotropy(self, strength: R) -> MetallicRoughness<R, SmithCorrelated> {
+        let (alpha, _) = self.distribution.alpha();
+        let s2 = strength.squared();
+        let along = Alpha(alpha.0 * (s2.lift(1.0) - s2) + s2);
+        MetallicRoughness {
+            base_color: self.base_color,
+            metallic: self.metallic,
+            distribution: Ggx::anisotropic(along, alpha),
+            masking: SmithCorrelated,
+            f0: self.f0,
+            specular: self.specular,
+        }
+    }
+}
+
+impl<R: Real, G> MetallicRoughness<R, G> {
+    /// `KHR_materials_ior` and `KHR_materials_specular`: `f0 = min(1, ((η − 1)/(η + 1))² colour)`, `w = weight`.
+    ///
+    /// Without the first, `η = 1.5`, where `f0 = 0.04`; without the second, white and 1.
+    #[inline(always)]
+    pub fn with_specular(self, ior: R, weight: R, color: Rgb<R>) -> Self {
+        let one = ior.lift(1.0);
+        let f0 = color * ((ior - one) / (ior + one)).squared();
+        Self { f0: Rgb::new(f0.r.min(one), f0.g.min(one), f0.b.min(one)), specular: weight, ..self }
+    }
+
+    #[inline(always)]
+    fn weighted(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R>
+    where
+        G: Masking<R, Ggx<R>>,
+    {
+        let (h, cos_d) = super::microfacet::unit_halfway(l, v);
+        let incidence = Incidence::halfway(l, v, cos_d);
+        let (x, one) = (incidence.one_minus_cos(), cos_d.lift(1.0));
+        let x5 = x.squared().squared() * x;
+        let one_minus_x5 = cos_d * (one + x * (one + x * (one + x * (one + x))));
+
+        let white = Rgb::splat(one);
+        let dielectric = (self.f0 + (white - self.f0) * x5) * self.specular;
+        let metal = self.base_color + (white - self.base_color) * x5;
+        let f = dielectric * (one - self.metallic) + metal * self.metallic;
+
+        // 1 − w max(F_d), of positive terms only.
+        let max_f0 = self.f0.r.max(self.f0.g).max(self.f0.b);
+        let transmitted = (one - self.specular) + self.specular * (one - max_f0) * one_minus_x5;
+        let diffuse = transmitted * (one - self.metallic) * weight.times(FRAC_1_PI);
+
+        let visibility = self.masking.visibility(&self.distribution, l, v, h, cos_d, weight);
+        let specular = self.distribution.d(h) * visibility;
+        self.base_color * above_horizon(l, v, diffuse) + f * above_horizon(l, v, specular)
+    }
+}
+
+impl<R: Real> MetallicRoughness<R> {
+    /// The same material in another number type.
+    #[inline(always)]
+    pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> MetallicRoughness<S> {
+        MetallicRoughness {
+            base_color: self.base_color.map(&f),
+            metallic: f(self.metallic),
+            distribution: self.distribution.map(&f),
+            masking: self.masking,
+            f0: self.f0.map(&f),
+            specular: f(self.specular),
+        }
+    }
+}
+
+impl<R: Real, G: Masking<R, Ggx<R>>> Brdf<R> for MetallicRoughness<R, G> {
+    #[inline(always)]
+    fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.weighted(l, v, l.z.lift(1.0))
+    }
+
+    #[inline(always)]
+    fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.weighted(l, v, l.z)
+    }
+}
+
+/// `KHR_materials_clearcoat`: `f = mix(base, coat, c (0.04 + 0.96 (1 − n·v)⁵))`, where `coat` is a GGX without Fresnel.
+///
+/// Khronos, *KHR_materials_clearcoat*, `fresnel_coat`. **Not reciprocal**: the split of the energy depends on the
+/// viewer alone. With `c = 1` over black, `f(l, v)/f(v, l)` is the ratio of the two Fresnel terms, up to 25. For a split
+/// that is the same both ways take [`Coat`](super::Coat).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearcoat<B, R = f32> {
+    base: B,
+    clearcoat: R,
+    distribution: Ggx<R>,
+}
+
+impl<B, R: Real> Clearcoat<B, R> {
+    /// A coat of the intensity `clearcoat ∈ [0, 1]` and a width `α`, the square of `clearcoatRoughness`, on a base.
+    #[inline(always)]
+    pub fn new(base: B, clearcoat: R, alpha: Alpha<R>) -> Self {
+        Self { base, clearcoat, distribution: Ggx::new(alpha) }
+    }
+
+    #[inline(always)]
+    fn coated(&self, base: Rgb<R>, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R> {
+        let one = weight.lift(1.0);
+        let incidence = Incidence::of(v);
+        let x = incidence.one_minus_cos();
+        let x5 = x.squared().squared() * x;
+        let reflected = self.clearcoat * x5.times(0.96).plus(0.04);
+        // 1 − c F, of positive terms.
+        let one_minus_x5 = v.z * (one + x * (one + x * (one + x * (one + x))));
+        let transmitted = (one - self.clearcoat) + self.clearcoat * one_minus_x5.times(0.96);
+        let (h, cos_d) = super::microfacet::unit_halfway(l, v);
+        let visibility = SmithSeparable.visibility(&self.distribution, l, v, h, cos_d, weight);
+        let coat = above_horizon(l, v, self.distribution.d(h) * visibility * reflected);
+        // Selected too: below the horizon the base is 0, and an x⁵ that is not a number there must not spoil it.
+        base * above_horizon(l, v, transmitted) + Rgb::splat(coat)
+    }
+}
+
+impl<R: Real, B: Brdf<R>> Brdf<R> for Clearcoat<B, R> {
+    #[inline(always)]
+    fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.coated(self.base.eval(l, v), l, v, l.z.lift(1.0))
+    }
+
+    #[inline(always)]
+    fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.coated(self.base.eval_cos(l, v), l, v, l.z)
+    }
+}
+
+/// `emissiveFactor`, with `KHR_materials_emissive_strength`: the radiance that the surface emits, `factor · strength`
+/// in W sr⁻¹ m⁻², or in nits.
+///
+/// It is no reflection, so it is in no lobe: a renderer adds it once.
+#[inline(always)]
+pub fn emission<R: Real>(factor: Rgb<R>, strength: R) -> Rgb<R> {
+    factor * strength
+}
