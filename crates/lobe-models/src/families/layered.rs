@@ -1,6 +1,7 @@
 //! glTF 2.0 with its extensions, and coats.
 
-use crate::{AnyBrdf, Model, Number, Parameter, Reader, Value};
+use super::constructors;
+use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader, Value};
 use lobe::distribution::Ggx;
 use lobe::fresnel::Schlick;
 use lobe::masking::SmithCorrelated;
@@ -15,8 +16,8 @@ pub(super) const MODELS: &[Model] = &[
         parameters: GLTF,
         reciprocal: true,
         finite: true,
-        f32: |p| gltf(p),
-        f64: |p| gltf(p),
+        bound: Bound::Constant,
+        build: constructors!(gltf),
     },
     Model {
         name: "gltf-clearcoat",
@@ -24,8 +25,8 @@ pub(super) const MODELS: &[Model] = &[
         parameters: GLTF_CLEARCOAT,
         reciprocal: false,
         finite: true,
-        f32: |p| gltf_clearcoat(p),
-        f64: |p| gltf_clearcoat(p),
+        bound: Bound::Constant,
+        build: constructors!(gltf_clearcoat),
     },
     Model {
         name: "coat",
@@ -37,8 +38,8 @@ pub(super) const MODELS: &[Model] = &[
         ],
         reciprocal: true,
         finite: true,
-        f32: |p| coat(p),
-        f64: |p| coat(p),
+        bound: Bound::Constant,
+        build: constructors!(coat),
     },
 ];
 
