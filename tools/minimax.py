@@ -5,7 +5,7 @@
 
 Each fit is minimax (Remez exchange on the relative error of the whole function). Coefficients are rounded to f32 one
 after the other, lowest order first, and the rest is fitted again after each, so that the last ones make up for the
-rounding of the first. The bound printed is that of the rounded polynomial in exact arithmetic.
+rounding of the first; all at once where 0 is inside the range, since nothing makes up for the first one there. The bound printed is that of the rounded polynomial in exact arithmetic.
 """
 import mpmath as mp
 import struct
@@ -49,10 +49,10 @@ def remez(target, basis, weight, lo, hi):
     return c, max(abs(e) for e in errors)
 
 
-def fit(name, target, basis, weight, lo, hi):
+def fit(name, target, basis, weight, lo, hi, one_by_one=True):
     lo, hi = mp.mpf(lo), mp.mpf(hi)
-    fixed = []
-    for i in range(len(basis)):
+    fixed = [] if one_by_one else [f32(c) for c in remez(target, basis, weight, lo, hi)[0]]
+    for i in range(len(fixed), len(basis)):
         rest = lambda x: target(x) - sum(c * b(x) for c, b in zip(fixed, basis))
         c, _ = remez(rest, basis[i:], weight, lo, hi)
         fixed.append(f32(c[0]))
@@ -98,6 +98,22 @@ fit(
 quarter = mp.pi / 4 * (1 + mp.mpf(2) ** -20)
 fit("sin: sin r = r + r^3 S(r^2)", lambda r: mp.sin(r) - r, powers(3, 4, 2), lambda r: 1 / mp.sin(r), tiny, quarter)
 fit("cos: cos r = 1 - r^2/2 + r^4 C(r^2)", lambda r: mp.cos(r) - 1 + r**2 / 2, powers(4, 3, 2), lambda r: 1 / mp.cos(r), tiny, quarter)
+
+eighth = mp.tan(mp.pi / 8) * (1 + mp.mpf(2) ** -20)
+fit("atan2: atan t = t + t^3 A(t^2)", lambda t: mp.atan(t) - t, powers(3, 5, 2), lambda t: 1 / mp.atan(t), tiny, eighth)
+
+
+# With 3 the rounding of the coefficients happens to cost less than with 2 or 2.5.
+def scaled_erfc(t):
+    x = 3 * (1 + t) / (1 - t)
+    return (x + 3) * mp.exp(x * x) * mp.erfc(x)
+
+
+end = (mp.mpf("9.2") - 3) / (mp.mpf("9.2") + 3)
+name = "erfc: (x + 3) exp(x^2) erfc(x) = P(t), t = (x - 3)/(x + 3)"
+fit(name, scaled_erfc, powers(0, 10), lambda t: 1 / scaled_erfc(t), -1, end, one_by_one=False)
+
+fit("erfc: 1 - erfc(x) = x E(x^2)", mp.erf, powers(1, 5, 2), lambda x: 1 / mp.erfc(x), tiny, "0.625")
 
 # Constants in parts that multiply exactly with 9-bit integers.
 rest = mp.pi / 2

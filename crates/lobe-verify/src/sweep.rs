@@ -37,6 +37,19 @@ pub const FUNCTIONS: &[Function] = &[
     },
     Function { name: "sin", allowed_ulps: 1.0, f32: |x| Real::sin_cos(x).0, exact: |x| in_turns(x, libm::sin) },
     Function { name: "cos", allowed_ulps: 1.0, f32: |x| Real::sin_cos(x).1, exact: |x| in_turns(x, libm::cos) },
+    Function {
+        name: "atan",
+        allowed_ulps: 2.0,
+        // With a component of 1 the other one may be anything.
+        f32: |x| Real::atan2(x, 1.0),
+        exact: libm::atan,
+    },
+    Function {
+        name: "erfc",
+        allowed_ulps: 6.0,
+        f32: |x| Real::erfc(x),
+        exact: |x| if x >= 9.19 { 0.0 } else { libm::erfc(x) },
+    },
     Function { name: "sqrt", allowed_ulps: 0.5, f32: |x| Real::sqrt(x), exact: libm::sqrt },
     Function { name: "recip", allowed_ulps: 0.5, f32: |x| Real::recip(x), exact: |x| 1.0 / x },
 ];

@@ -29,6 +29,16 @@ fn float() -> impl Strategy<Value = f32> {
     prop_oneof![any::<u32>().prop_map(f32::from_bits), -200.0_f32..200.0, 0.0_f32..2.0]
 }
 
+/// A component of a vector: of any size up to 2¹²⁶, of size 1, or 0.
+fn component() -> impl Strategy<Value = f32> {
+    let any_size = (-148.0..126.0_f32, any::<bool>());
+    prop_oneof![
+        4 => any_size.prop_map(|(e, negative)| if negative { -e.exp2() } else { e.exp2() }),
+        4 => -1.0_f32..1.0,
+        1 => prop_oneof![Just(0.0_f32), Just(-0.0_f32), Just(1.0_f32), Just(-1.0_f32)],
+    ]
+}
+
 fn exact_pow(x: f32, y: f32) -> f64 {
     let exact = Real::pow(f64::from(x), f64::from(y));
     // Below the smallest normal number, 0 is promised; at the edge either is right.
@@ -52,6 +62,12 @@ proptest! {
         let (value, exact) = (Real::pow(x, y), exact_pow(x, y));
         let at_the_edge = exact <= 1.0001 * f64::from(f32::MIN_POSITIVE) && value <= 1.0001 * f32::MIN_POSITIVE;
         prop_assert!(at_the_edge || ulps_between(value, exact) <= 2.0, "{x}^{y} = {value}, not {exact}");
+    }
+
+    #[test]
+    fn atan2_is_within_two_ulps(y in component(), x in component()) {
+        let (value, exact) = (Real::atan2(y, x), Real::atan2(f64::from(y), f64::from(x)));
+        prop_assert!(ulps_between(value, exact) <= 2.0, "atan2({y}, {x}) = {value}, not {exact}");
     }
 
     #[test]

@@ -115,6 +115,12 @@ impl Real for Lanes {
     fn sin_cos(self) -> (Self, Self) {
         elementary::sin_cos(self)
     }
+    fn atan2(self, x: Self) -> Self {
+        elementary::atan2(self, x)
+    }
+    fn erfc(self) -> Self {
+        elementary::erfc(self)
+    }
 }
 
 impl Binary32 for Lanes {
@@ -146,6 +152,7 @@ proptest! {
         let wide = (Lambert::new(k) + Phong::new(k, q) + BlinnPhong::new(k, q)).eval_cos(l, v);
         let h = lobe::halfway(l, v);
         let (sin, cos) = l.x.times(100.0).sin_cos();
+        let (angle, tail) = (l.x.atan2(v.z - l.z), v.x.times(9.0).erfc());
         for i in 0..4 {
             let ((l, v), k, q) = (pairs[i], Rgb::splat(0.7), Shininess(qs[i]));
             let one = (Lambert::new(k) + Phong::new(k, q) + BlinnPhong::new(k, q)).eval_cos(l, v);
@@ -153,6 +160,8 @@ proptest! {
             prop_assert_eq!(h.y.0[i].to_bits(), lobe::halfway(l, v).y.to_bits());
             let turned = Real::sin_cos(l.x.times(100.0));
             prop_assert_eq!((sin.0[i].to_bits(), cos.0[i].to_bits()), (turned.0.to_bits(), turned.1.to_bits()));
+            prop_assert_eq!(angle.0[i].to_bits(), Real::atan2(l.x, v.z - l.z).to_bits());
+            prop_assert_eq!(tail.0[i].to_bits(), Real::erfc(v.x.times(9.0)).to_bits());
         }
     }
 }
@@ -306,6 +315,14 @@ impl Real for Interval {
     fn sin_cos(self) -> (Self, Self) {
         (Self::new(-1.0, 1.0), Self::new(-1.0, 1.0))
     }
+    fn atan2(self, x: Self) -> Self {
+        use std::f64::consts::PI;
+        // Along each axis the angle is monotonic, but for the cut behind the origin.
+        if x.lo <= 0.0 && self.contains(0.0) { Self::new(-PI, PI) } else { self.of_products(x, f64::atan2) }
+    }
+    fn erfc(self) -> Self {
+        Self::outward(Real::erfc(self.hi), Real::erfc(self.lo))
+    }
 }
 
 fn thin(v: Vec3<f64>, width: f64) -> Vec3<Interval> {
@@ -435,6 +452,12 @@ impl Real for Expr<'_> {
     }
     fn sin_cos(self) -> (Self, Self) {
         (self.call("sin", &[]), self.call("cos", &[]))
+    }
+    fn atan2(self, x: Self) -> Self {
+        self.call("atan2", &[x])
+    }
+    fn erfc(self) -> Self {
+        self.call("erfc", &[])
     }
 }
 

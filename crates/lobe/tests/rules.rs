@@ -46,6 +46,7 @@ macro_rules! rules {
                 assert!(NAN.log2_1p_div(1.0).is_nan() && Real::sqrt(NAN).is_nan() && Real::abs(NAN).is_nan());
                 assert!(Real::pow(NAN, 0.0).is_nan() && Real::pow(1.0, NAN).is_nan() && Real::pow(NAN, NAN).is_nan());
                 assert!(Real::sin_cos(NAN).0.is_nan() && Real::sin_cos(NAN).1.is_nan());
+                assert!(Real::atan2(NAN, 1.0).is_nan() && Real::atan2(1.0, NAN).is_nan() && Real::erfc(NAN).is_nan());
                 // Payloads must not leak into the exponent arithmetic.
                 for payload in [1, 3, 0x1ff, 0x7fff] {
                     let odd = <$number>::from_bits(NAN.to_bits() | payload);
@@ -72,6 +73,13 @@ macro_rules! rules {
                 assert_eq!(zero.log2_1p_div(3.0), 0.0);
                 assert_eq!(Real::sin_cos(zero), (0.0, 1.0));
                 assert!(Real::sin_cos(-zero).0.is_sign_negative());
+                assert_eq!((Real::atan2(zero, 0.0), Real::atan2(zero, 2.0)), (0.0, 0.0));
+                assert!(Real::atan2(-zero, 2.0).is_sign_negative());
+                assert_eq!((Real::atan2(zero, -0.0), Real::atan2(-zero, -0.0)), (0.0, 0.0));
+                let half_turn = core::f64::consts::PI as $number;
+                assert_eq!((Real::atan2(zero, -2.0), Real::atan2(two, 0.0)), (half_turn, 0.5 * half_turn));
+                assert_eq!(Real::atan2(INF, 1.0), 0.5 * half_turn);
+                assert_eq!((Real::erfc(INF), Real::erfc(-INF)), (0.0, 2.0));
             }
 
             #[test]

@@ -68,4 +68,13 @@ impl Real for f64 {
     fn sin_cos(self) -> (Self, Self) {
         libm::sincos(self)
     }
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        // The zero vector has the angle 0 in every number type, whatever the sign of its zeros.
+        libm::atan2(self, x + 0.0)
+    }
+    #[inline(always)]
+    fn erfc(self) -> Self {
+        libm::erfc(self)
+    }
 }

@@ -68,6 +68,14 @@ impl Real for f32 {
     fn sin_cos(self) -> (Self, Self) {
         elementary::sin_cos(self)
     }
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        elementary::atan2(self, x)
+    }
+    #[inline(always)]
+    fn erfc(self) -> Self {
+        elementary::erfc(self)
+    }
 }
 
 impl Binary32 for f32 {
