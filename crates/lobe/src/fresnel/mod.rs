@@ -1,7 +1,31 @@
 //! `F`: how much a facet reflects, one file a form.
+//!
+//! | form | parameters | what it is |
+//! |---|---|---|
+//! | [`Dielectric`] | [`Ior`](crate::Ior) | Fresnel's equations, exact, down to `η = 1`; total reflection for `η < 1` |
+//! | [`Conductor`] | `η`, `k` per channel | Fresnel's equations, exact |
+//! | [`CookFresnel`] | [`F0`](crate::F0) per channel | exact, for the `η` that belongs to `F0` |
+//! | [`Gulbrandsen`] | `r`, `g` per channel | exact, for `η` and `k` by reflectivity and edge tint |
+//! | [`Schlick`] | `f0`, `f90` | a polynomial |
+//! | [`F82Tint`] | `f0`, tint | Schlick's, tinted near 82° |
+//! | [`Lazanyi`] | `f0`, `a`, `α` | Schlick's, less a term that metals need |
+//!
+//! All are in `[0, 1]` to the last bit.
 
+mod conductor;
+mod cook;
+mod dielectric;
+mod f82;
+mod gulbrandsen;
+mod lazanyi;
 mod schlick;
 
+pub use conductor::Conductor;
+pub use cook::CookFresnel;
+pub use dielectric::Dielectric;
+pub use f82::F82Tint;
+pub use gulbrandsen::Gulbrandsen;
+pub use lazanyi::Lazanyi;
 pub use schlick::Schlick;
 
 use crate::color::Rgb;
@@ -30,7 +54,9 @@ impl<R: Real> Incidence<R> {
     /// `sin² θ = |l − v|²/4`.
     #[inline(always)]
     pub(crate) fn halfway(l: Vec3<R>, v: Vec3<R>, cos: R) -> Self {
-        Self { cos, sin2: (l - v).length_squared().times(0.25) }
+        // Of rounded unit vectors the difference may be longer than 2, and Schlick's form would exceed 1.
+        let sin2 = (l - v).length_squared().times(0.25);
+        Self { cos, sin2: sin2.min(cos.lift(1.0)) }
     }
 
     /// The angle between a unit vector of the local frame and the normal.
@@ -44,6 +70,31 @@ impl<R: Real> Incidence<R> {
     pub fn one_minus_cos(self) -> R {
         self.sin2 / self.cos.plus(1.0)
     }
+}
+
+/// `cos θ`, at least 1e-18. Below, no reflectance moves any more; but an interface that reflects nothing or everything
+/// (`η = 1`, `F0 = 1`) would be 0/0 in the squares of cosines (test `the_ends_are_finite`).
+#[inline(always)]
+fn felt<R: Real>(cos: R) -> R {
+    cos.max(cos.lift(1e-18))
+}
+
+/// At most 1, which rounding may exceed by some units in the last place (test `inside_the_unit_interval`).
+#[inline(always)]
+fn at_most_one<R: Real>(f: R) -> R {
+    f.min(f.lift(1.0))
+}
+
+/// At least 0, for the forms that subtract a term.
+#[inline(always)]
+fn at_least_zero<R: Real>(f: R) -> R {
+    f.max(f.lift(0.0))
+}
+
+/// `f` of the channels of two colours.
+#[inline(always)]
+fn zip<R: Real>(a: Rgb<R>, b: Rgb<R>, f: impl Fn(R, R) -> R) -> Rgb<R> {
+    Rgb { r: f(a.r, b.r), g: f(a.g, b.g), b: f(a.b, b.b) }
 }
 
 /// The reflectance of a smooth interface for unpolarised light.

@@ -1,13 +1,17 @@
 //! Schlick: `F = f0 + (f90 − f0)(1 − cos θ)⁵`.
 
-use super::{Fresnel, Incidence};
+use super::{Fresnel, Incidence, at_most_one};
 use crate::color::Rgb;
 use crate::number::Real;
 
 /// Schlick's approximation: `F = f0 + (f90 − f0)(1 − cos θ)⁵`.
 ///
 /// Schlick, "An Inexpensive BRDF Model for Physically-Based Rendering", 1994, equation 15, where `f90` is 1.
-/// Domain: `f0`, `f90` in `[0, 1]`.
+///
+/// Computed as `f0 · (1 − x⁵) + f90 · x⁵`, `x = 1 − cos θ`, with `1 − x⁵ = cos θ (1 + x + x² + x³ + x⁴)`: the difference
+/// `f90 − f0` would leave `f90 < f0` without digits near grazing.
+///
+/// Domain: `f0`, `f90` in `[0, 1]`. Error against `f64` of the same inputs: 1e-6.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Schlick<R = f32> {
     f0: Rgb<R>,
@@ -39,7 +43,9 @@ impl<R: Real> Fresnel<R> for Schlick<R> {
     fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R> {
         let x = incidence.one_minus_cos();
         let x2 = x.squared();
-        self.f0 + (self.f90 - self.f0) * (x2.squared() * x)
+        let x4 = x2.squared();
+        let normal = incidence.cos * ((x.plus(1.0) + x2 * x.plus(1.0)) + x4);
+        (self.f0 * normal + self.f90 * (x4 * x)).map(at_most_one)
     }
 
     /// `(1 − f0)(1 − x⁵) + (1 − f90) x⁵`, with `1 − x⁵ = cos θ (1 + x + x² + x³ + x⁴)`: nothing cancels towards grazing
