@@ -61,8 +61,8 @@ mod parameter;
 mod vector;
 
 pub use brdf::{
-    Black, BlinnPhong, Brdf, Clearcoat, Coat, CommonNormalization, Delta, Lambert, MetallicRoughness, Microfacet,
-    Mirror, NormalIncidence, Normalization, Phong, Shininess, Sum,
+    Black, Blinn1977, BlinnPhong, Brdf, Clearcoat, Coat, CommonNormalization, CookTorrance, Delta, Lambert,
+    MetallicRoughness, Microfacet, Mirror, NormalIncidence, Normalization, Phong, Shininess, Sum,
 };
 pub use color::Rgb;
 pub use frame::{Frame, interpolate_normal};

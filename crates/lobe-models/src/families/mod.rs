@@ -3,11 +3,12 @@
 mod classic;
 mod layered;
 mod microfacet;
+mod physical;
 
 use crate::catalogue::Model;
 
 /// All families.
-pub(crate) const ALL: &[&[Model]] = &[classic::MODELS, layered::MODELS, microfacet::MODELS];
+pub(crate) const ALL: &[&[Model]] = &[classic::MODELS, layered::MODELS, microfacet::MODELS, physical::MODELS];
 
 /// The constructors of a model in each number type, from the name of a generic function of a [`Reader`](crate::Reader).
 macro_rules! constructors {

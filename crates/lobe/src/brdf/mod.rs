@@ -14,8 +14,10 @@
 //!
 //! The lecture's unnormalised highlights are in [`illumination`](crate::illumination).
 
+mod blinn_1977;
 mod blinn_phong;
 mod coat;
+mod cook_torrance;
 mod gltf;
 mod lambert;
 mod microfacet;
@@ -24,8 +26,10 @@ mod phong;
 pub(crate) mod power;
 mod sum;
 
+pub use blinn_1977::Blinn1977;
 pub use blinn_phong::{BlinnPhong, CommonNormalization, NormalIncidence, Normalization};
 pub use coat::Coat;
+pub use cook_torrance::CookTorrance;
 pub use gltf::{Clearcoat, MetallicRoughness, emission};
 pub use lambert::Lambert;
 pub use microfacet::Microfacet;

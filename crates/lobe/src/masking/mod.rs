@@ -4,8 +4,10 @@
 //! numerator does not tame.
 
 mod smith;
+mod v_cavity;
 
 pub use smith::{SmithCorrelated, SmithSeparable};
+pub use v_cavity::VCavity;
 
 use crate::number::Real;
 use crate::vector::Vec3;
@@ -22,3 +24,8 @@ pub trait Masking<R: Real, D> {
 /// Cosines are scaled by 2⁶² before they are multiplied with each other or with a small width: at the smallest normal
 /// cosine the product would be subnormal and lose its digits (test `eval_cos_keeps_its_digits_at_the_horizon`).
 pub(crate) const SCALE: f64 = (1u64 << 62) as f64;
+
+/// 2¹⁰⁰, where a visibility ends that has no limit of its own. `D` is at most `1/(π α²) < 2²⁵`, so `D V` stays in the
+/// range of `f32`; without this end it is infinite between opposite directions at the horizon, and of a channel that
+/// reflects nothing `0 · ∞` makes NaN (test `finite_to_the_last_float` of the catalogue).
+pub const MAX_VISIBILITY: f64 = (1u128 << 100) as f64;
