@@ -68,7 +68,7 @@ pub use color::Rgb;
 pub use frame::{Frame, interpolate_normal};
 pub use light::{AmbientLight, DirectionalLight, Incident, PointLight};
 pub use number::{Mask, Real};
-pub use parameter::{Alpha, F0, Ior};
+pub use parameter::{Alpha, F0, Ior, PerceptualRoughness};
 pub use vector::{Vec3, halfway, mirror, reflect};
 
 /// The examples of the README run as tests.

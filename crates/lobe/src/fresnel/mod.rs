@@ -18,6 +18,7 @@ mod dielectric;
 mod f82;
 mod gulbrandsen;
 mod lazanyi;
+pub mod metals;
 mod schlick;
 
 pub use conductor::Conductor;
