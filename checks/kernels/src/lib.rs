@@ -7,10 +7,13 @@
 
 #![no_std]
 
+use lobe::distribution::{Beckmann, Ggx};
+use lobe::fresnel::Schlick;
 use lobe::illumination::{BlinnTorrance, BlinnTorranceHighlight, Diffuse, Phong as LecturePhong, PhongHighlight};
+use lobe::masking::{SmithCorrelated, SmithSeparable, VCavity};
 use lobe::{
-    Black, BlinnPhong, Brdf, CommonNormalization, Delta, Frame, Incident, Lambert, Mirror, Phong, PointLight, Real,
-    Rgb, Sum, Vec3,
+    Black, BlinnPhong, Brdf, Coat, CommonNormalization, Delta, Frame, Incident, Lambert, MetallicRoughness, Microfacet,
+    Mirror, Phong, PointLight, Real, Rgb, Sum, Vec3,
 };
 
 macro_rules! kernels {
@@ -42,6 +45,10 @@ kernels! {
     lambert_and_blinn_phong: Sum<Lambert, BlinnPhong>;
     lambert_and_black: Sum<Lambert, Black>;
     blinn_phong_and_black: Sum<BlinnPhong, Black>;
+    microfacet_ggx: Microfacet<Ggx, SmithCorrelated, Schlick>;
+    microfacet_v_cavity: Microfacet<Beckmann, VCavity, Schlick>;
+    microfacet_metallic_roughness: MetallicRoughness;
+    microfacet_coat: Coat<Microfacet<Ggx, SmithSeparable, Schlick>, Schlick, Lambert>;
 }
 
 /// The rest of the core.
