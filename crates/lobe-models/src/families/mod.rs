@@ -1,6 +1,7 @@
 //! The models, a file a family.
 
 mod classic;
+mod empirical;
 mod layered;
 mod microfacet;
 mod physical;
@@ -8,7 +9,8 @@ mod physical;
 use crate::catalogue::Model;
 
 /// All families.
-pub(crate) const ALL: &[&[Model]] = &[classic::MODELS, layered::MODELS, microfacet::MODELS, physical::MODELS];
+pub(crate) const ALL: &[&[Model]] =
+    &[classic::MODELS, empirical::MODELS, layered::MODELS, microfacet::MODELS, physical::MODELS];
 
 /// The constructors of a model in each number type, from the name of a generic function of a [`Reader`](crate::Reader).
 macro_rules! constructors {
