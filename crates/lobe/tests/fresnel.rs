@@ -272,6 +272,7 @@ fn the_ends_are_finite() {
         let at = Incidence::from_cos(cos);
         assert_eq!(Dielectric::new(Ior(1.0)).fresnel(at).g, 0.0);
         assert_eq!(Conductor::new(grey(1.0), grey(0.0)).fresnel(at).g, 0.0);
+        assert_eq!(Conductor::new(grey(0.0), grey(0.0)).fresnel(at).g, 1.0);
         assert_eq!(CookFresnel::new(grey(0.0)).fresnel(at).g, 0.0);
         assert!((CookFresnel::new(grey(1.0)).fresnel(at).g - 1.0).abs() < 1e-6);
         for tint in [0.0, 0.5, 1.0] {

@@ -1,11 +1,11 @@
 //! The microfacet model of any terms.
 
 use super::constructors;
+use super::fresnel::{self, any_fresnel};
 use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader};
+use lobe::Microfacet;
 use lobe::distribution::{Ggx, SmithLambda};
-use lobe::fresnel::{Fresnel, Incidence, Schlick};
 use lobe::masking::{SmithCorrelated, SmithSeparable};
-use lobe::{Microfacet, Rgb};
 
 pub(super) const MODELS: &[Model] = &[Model {
     name: "microfacet",
@@ -14,22 +14,24 @@ pub(super) const MODELS: &[Model] = &[Model {
         Parameter::choice("distribution", &["ggx"], "the distribution D"),
         Parameter::alpha(),
         Parameter::choice("masking", &["smith-correlated", "smith-separable"], "the masking G"),
-        Parameter::reflectance("f0", "the reflectance at normal incidence"),
+        fresnel::FORM,
+        fresnel::F0,
+        fresnel::F90,
+        fresnel::TINT,
+        fresnel::A,
+        fresnel::EXPONENT,
+        fresnel::IOR,
+        fresnel::METAL,
+        fresnel::ETA,
+        fresnel::K,
+        fresnel::REFLECTIVITY,
+        fresnel::EDGE_TINT,
     ],
     reciprocal: true,
     finite: true,
-    bound: Bound::Constant,
+    bound: Bound::Derived { formula: fresnel::FORMULA, at: |p, l, v| Bound::WORST + fresnel::excess(p, l, v) },
     build: constructors!(microfacet),
 }];
-
-/// A form of `F` chosen at run time.
-struct AnyFresnel<R>(Box<dyn Fresnel<R> + Send + Sync>);
-
-impl<R: Number> Fresnel<R> for AnyFresnel<R> {
-    fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R> {
-        self.0.fresnel(incidence)
-    }
-}
 
 fn microfacet<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
     let (x, y) = p.widths("alpha");
@@ -37,7 +39,7 @@ fn microfacet<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
 }
 
 fn smith<R: Number, D: SmithLambda<R> + Send + Sync + 'static>(p: &Reader<'_, R>, d: D) -> AnyBrdf<R> {
-    let fresnel = AnyFresnel(Box::new(Schlick::new(p.rgb("f0"))));
+    let fresnel = any_fresnel(p);
     match p.choice("masking") {
         "smith-separable" => Box::new(Microfacet::new(d, SmithSeparable, fresnel)),
         _ => Box::new(Microfacet::new(d, SmithCorrelated, fresnel)),

@@ -2,6 +2,7 @@
 
 mod classic;
 mod empirical;
+mod fresnel;
 mod layered;
 mod microfacet;
 mod physical;

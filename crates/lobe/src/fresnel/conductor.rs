@@ -18,7 +18,7 @@ use crate::number::Real;
 /// `a b = η k`; and `a² − cos² θ = (η² − 1) + sin² θ b²/(η² + b²)`, which has no cancellation for `η ≥ 1`, the domain
 /// where `Rs` may be small.
 ///
-/// Domain: `η ∈ (0, 4]`, `k ∈ [0, 10]`. Error against `f64` of the same inputs: 1e-6 for `η ≥ 1`, and for any `η` with
+/// Domain: `η ∈ [0, 4]`, `k ∈ [0, 10]`. Error against `f64` of the same inputs: 1e-6 for `η ≥ 1`, and for any `η` with
 /// `k ≥ 1`: all metals. For `η < 1` and `k → 0` it becomes that of [`Dielectric`](super::Dielectric) at the critical
 /// angle.
 ///
@@ -86,7 +86,9 @@ pub(super) fn reflectance<R: Real>(eta: R, difference: R, k: R, incidence: Incid
     let b2 = b.squared();
 
     let sum = a + cos;
-    let gap = (difference + sin2 * b2 / (eta2 + b2)) / sum;
+    // For η = k = 0, which reflects everything, this is 0/0 at normal incidence.
+    let split = b2 / (eta2 + b2).max(eta.lift(1e-36));
+    let gap = (difference + sin2 * split) / sum;
     let rs = (gap.squared() + b2) / (sum.squared() + b2);
     let (ac, b2c2) = (a * cos, b2 * cos2);
     let ratio = ((ac - sin2).squared() + b2c2) / ((ac + sin2).squared() + b2c2);
