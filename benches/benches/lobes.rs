@@ -14,7 +14,10 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::Vec3;
-use lobe::{BlinnPhong, Brdf, Lambert, Phong, Rgb, Shininess};
+use lobe::distribution::Ggx;
+use lobe::fresnel::Schlick;
+use lobe::masking::SmithCorrelated;
+use lobe::{Alpha, BlinnPhong, Brdf, Lambert, Microfacet, Phong, Rgb, Shininess};
 use lobe_benches::{directions, plain};
 use std::hint::black_box;
 
@@ -87,6 +90,10 @@ fn lobes(c: &mut Criterion) {
         |l, v| diffuse.eval(l, v) + glossy.eval(l, v),
         |l, v| sum.eval(l.into(), v.into()),
     );
+
+    let a = plain::Ggx { alpha: 0.3, f0: ks };
+    let b = Microfacet::new(Ggx::new(Alpha(0.3)), SmithCorrelated, Schlick::new(rgb));
+    compare(c, "ggx", |l, v| a.eval(l, v), |l, v| b.eval(l.into(), v.into()));
 
     let a = plain::LecturePhong { kd: ks, ks, q };
     let b = lobe::illumination::Phong { ka: rgb, kd: rgb, ks: rgb, q: Shininess(q) };

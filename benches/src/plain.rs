@@ -82,6 +82,35 @@ impl BlinnPhong {
     }
 }
 
+/// GGX with Smith's correlated masking and Schlick's Fresnel term, from cosines, as shaders have it.
+#[derive(Clone, Copy, Debug)]
+pub struct Ggx {
+    /// `α`.
+    pub alpha: f32,
+    /// `f0`.
+    pub f0: Vec3,
+}
+
+impl Ggx {
+    /// `f_r(l, v)`.
+    #[inline(always)]
+    pub fn eval(&self, l: Vec3, v: Vec3) -> Vec3 {
+        if l.z <= 0.0 || v.z <= 0.0 {
+            return Vec3::ZERO;
+        }
+        let h = (l + v).normalize();
+        let a2 = self.alpha * self.alpha;
+        let f = h.z * h.z * (a2 - 1.0) + 1.0;
+        let d = a2 / (PI * f * f);
+        let masked = |c: f32| (c * c * (1.0 - a2) + a2).sqrt();
+        let visibility = 0.5 / (l.z * masked(v.z) + v.z * masked(l.z));
+        let x = 1.0 - v.dot(h);
+        let x2 = x * x;
+        let fresnel = self.f0 + (Vec3::ONE - self.f0) * (x2 * x2 * x);
+        fresnel * (d * visibility)
+    }
+}
+
 /// The lecture's `k_d (n·l) + k_s (v·r)^q`, vectors in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct LecturePhong {
@@ -110,7 +139,9 @@ impl LecturePhong {
 mod tests {
     use super::*;
     use crate::directions;
-    use lobe::{Brdf, Rgb, Shininess};
+    use lobe::fresnel::Schlick;
+    use lobe::masking::SmithCorrelated;
+    use lobe::{Alpha, Brdf, Microfacet, Rgb, Shininess};
 
     const KS: Vec3 = Vec3::new(0.3, 0.2, 0.1);
 
@@ -133,6 +164,9 @@ mod tests {
         let (plain, ours) = (Phong::new(KS, 8.0), lobe::Phong::new(rgb, Shininess(8.0)));
         assert_same(|l, v| plain.eval(l, v), |l, v| ours.eval(l.into(), v.into()) + Rgb::splat(1e-20));
         let (plain, ours) = (BlinnPhong::new(KS, 8.0), lobe::BlinnPhong::new(rgb, Shininess(8.0)));
+        assert_same(|l, v| plain.eval(l, v), |l, v| ours.eval(l.into(), v.into()));
+        let plain = Ggx { alpha: 0.3, f0: KS };
+        let ours = Microfacet::new(lobe::distribution::Ggx::new(Alpha(0.3)), SmithCorrelated, Schlick::new(rgb));
         assert_same(|l, v| plain.eval(l, v), |l, v| ours.eval(l.into(), v.into()));
         let ours = lobe::illumination::Phong { ka: rgb, kd: rgb, ks: rgb, q: Shininess(8.0) };
         let plain = LecturePhong { kd: KS, ks: KS, q: 8.0 };

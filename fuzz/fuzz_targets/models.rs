@@ -1,0 +1,53 @@
+//! Every model of the catalogue on any direction and any parameters of its domain: what `Brdf` promises, and no panic
+//! beyond it.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use lobe::{Rgb, Vec3};
+use lobe_fuzz::{Bits, channels, components, same};
+use lobe_models::{Kind, Lobe, Parameter, Value, models};
+
+/// A value of the parameter's domain.
+fn value(parameter: &Parameter, bits: &mut Bits<'_>) -> Value {
+    // By its bits, so that the small ones are as likely as the large.
+    let mut between = |min: f64, max: f64| (min + f64::from(bits.up_to((max - min) as f32))).clamp(min, max);
+    match parameter.kind {
+        Kind::Colour { max } => Value::Colour(std::array::from_fn(|_| between(0.0, max))),
+        Kind::Number { min, max } => Value::Number(between(min, max)),
+        Kind::Widths => Value::Widths(std::array::from_fn(|_| between(1e-4, 1.0))),
+        Kind::Choice(words) => Value::Choice(words[usize::from(bits.byte()) % words.len()]),
+    }
+}
+
+fn good(f: Rgb) -> bool {
+    channels(f).iter().all(|c| c.is_finite() && *c >= 0.0)
+}
+
+fuzz_target!(|input: &[u8]| {
+    let mut bits = Bits(input);
+    let count = models().count();
+    let Some(model) = models().nth(usize::from(bits.byte()) % count) else { return };
+    let values: Vec<_> = model.parameters.iter().map(|p| (p.name, value(p, &mut bits))).collect();
+    let lobe = Lobe::new(model, &values).expect("inside the domain");
+    let brdf = lobe.build::<f32>();
+
+    // Whatever the directions are.
+    let (l, v) = (bits.vector(), bits.vector());
+    let (f, cos, back) = (brdf.eval(l, v), brdf.eval_cos(l, v), brdf.eval(v, l));
+    if !components(l).iter().chain(&components(v)).all(|c| c.is_finite()) {
+        assert!([f, cos].iter().all(|f| channels(*f).iter().all(|c| c.is_nan())), "{lobe:?}: {f:?} at {l:?} {v:?}");
+    }
+    assert!(!model.reciprocal || same(channels(f), channels(back)), "{lobe:?}: {f:?} {back:?} at {l:?} {v:?}");
+
+    // Inside the domain.
+    let l = bits.direction(Vec3::new(0.0, 0.0, 1.0));
+    let v = bits.direction(l);
+    let (f, cos) = (brdf.eval(l, v), brdf.eval_cos(l, v));
+    let lowest = l.z.min(v.z);
+    if lowest <= 0.0 {
+        assert!([f, cos].map(channels).as_flattened().iter().all(|c| *c == 0.0), "{lobe:?}: {f:?} at {l:?} {v:?}");
+    } else {
+        assert!(lowest < f32::MIN_POSITIVE || good(cos), "{lobe:?}: {cos:?} at {l:?} {v:?}");
+        assert!(lowest < 1e-20 || !model.finite || good(f), "{lobe:?}: {f:?} at {l:?} {v:?}");
+    }
+});
