@@ -7,10 +7,23 @@
 //! of percent, from the components of `h` by 5e-7.
 
 mod beckmann;
+mod gaussian;
 mod ggx;
+mod gtr;
+mod phong_power;
+mod quadrature;
+mod smith_table;
+mod student_t;
+mod tabulated;
 
 pub use beckmann::Beckmann;
+pub use gaussian::Gaussian;
 pub use ggx::Ggx;
+pub use gtr::Gtr;
+pub use phong_power::PhongPower;
+pub use smith_table::SmithTable;
+pub use student_t::StudentT;
+pub use tabulated::Tabulated;
 
 use crate::number::Real;
 use crate::vector::Vec3;

@@ -3,9 +3,21 @@
 //! What a BRDF needs is the *visibility* `V = G/(4 (n·l)(n·v))`, which has no cosine in its denominator that the
 //! numerator does not tame.
 
+mod hammon;
+mod implicit;
+mod kelemen;
+mod neumann;
+mod rational_beckmann;
+mod schlick_ggx;
 mod smith;
 mod v_cavity;
 
+pub use hammon::Hammon;
+pub use implicit::Implicit;
+pub use kelemen::Kelemen;
+pub use neumann::Neumann;
+pub use rational_beckmann::RationalBeckmann;
+pub use schlick_ggx::SchlickGgx;
 pub use smith::{SmithCorrelated, SmithSeparable};
 pub use v_cavity::VCavity;
 

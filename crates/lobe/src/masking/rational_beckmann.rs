@@ -1,0 +1,58 @@
+//! Walter's rational form: `G₁ = (3.535 a + 2.181 a²)/(1 + 2.276 a + 2.577 a²)`, 1 from `a = 1.6` on.
+
+use super::Masking;
+use crate::Alpha;
+use crate::distribution::Widths;
+use crate::number::Real;
+use crate::vector::Vec3;
+
+/// The rational form of Smith's masking for Beckmann, light and viewer apart:
+/// `G₁ = min(1, (3.535 a + 2.181 a²)/(1 + 2.276 a + 2.577 a²))`, `a = 1/(α tan θ)`, and 1 from `a = 1.6` on.
+///
+/// Walter et al. 2007, equation 27, where it is also advised for Phong's distribution with `α = √(2/(q + 2))`. As it is
+/// printed it exceeds 1 by 5.7e-5 towards `a = 1.6`; here it does not.
+///
+/// Error against the exact function: at cosines from 0.1 on, `V` is off by at most 0.63 %, the product of two `G₁` that
+/// are off by 0.31 % at `a ≈ 1.3`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RationalBeckmann<R = f32> {
+    widths: Widths<R>,
+}
+
+impl<R: Real> RationalBeckmann<R> {
+    /// The masking for a Beckmann of this width.
+    #[inline(always)]
+    pub fn new(alpha: Alpha<R>) -> Self {
+        Self::anisotropic(alpha, alpha)
+    }
+
+    /// The masking for a Beckmann of these widths.
+    #[inline(always)]
+    pub fn anisotropic(x: Alpha<R>, y: Alpha<R>) -> Self {
+        Self { widths: Widths::new(x, y) }
+    }
+
+    /// The same masking in another number type.
+    #[inline(always)]
+    pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> RationalBeckmann<S> {
+        RationalBeckmann::anisotropic(self.widths.x.map(&f), self.widths.y.map(&f))
+    }
+
+    /// `G₁(w)/cos θ`.
+    #[inline(always)]
+    fn g1_over_cos(&self, w: Vec3<R>) -> R {
+        let s = self.widths.shrunk(w).sqrt();
+        let a = w.z / s;
+        // At normal incidence a is infinite and the first form NaN; the mask does not choose it there.
+        let rational = (a.times(2.181).plus(3.535)) / (s * ((a.times(2.577).plus(2.276)) * a).plus(1.0));
+        let one = w.z.recip();
+        R::select(a.lt(a.lift(1.6)), rational.min(one), one)
+    }
+}
+
+impl<R: Real, D> Masking<R, D> for RationalBeckmann<R> {
+    #[inline(always)]
+    fn visibility(&self, _distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> R {
+        weight.times(0.25) * (self.g1_over_cos(l) * self.g1_over_cos(v))
+    }
+}
