@@ -16,9 +16,9 @@ fuzz_target!(|input: &[u8]| {
                 assert!(lobe.exponent().is_none_or(|q| (0.0..=1e6).contains(&q)), "{lobe:?}");
             }
             let (l, v) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.48, 0.36, 0.8));
-            let wide = spec.build(0.0_f64).eval(l, v);
+            let wide = spec.build::<f64>().eval(l, v);
             assert!([wide.r, wide.g, wide.b].iter().all(|c| *c >= 0.0), "{wide:?}");
-            let _ = spec.build(0.0_f32).eval(l.map(|c| c as f32), v.map(|c| c as f32));
+            let _ = spec.build::<f32>().eval(l.map(|c| c as f32), v.map(|c| c as f32));
         }
         Err(failure) => {
             let message = failure.to_string();

@@ -44,8 +44,11 @@ pub(crate) enum Command {
     #[command(after_help = RENDER_HELP)]
     Render(RenderArgs),
     /// Evaluate a BRDF for pairs of directions: CSV in, CSV out
-    #[command(after_help = EVAL_HELP)]
+    #[command(after_help = eval_help())]
     Eval(EvalArgs),
+    /// List the models with their parameters
+    #[command(after_help = MODELS_HELP)]
+    Models(ModelsArgs),
     /// Draw lobes as SVG, for a paper or a page
     #[command(after_help = PLOT_HELP)]
     Plot(PlotArgs),
@@ -157,6 +160,12 @@ pub(crate) struct EvalArgs {
     pub(crate) list_presets: bool,
 }
 
+/// The models come from the catalogue: one that is added there is listed here.
+fn eval_help() -> String {
+    let names: Vec<_> = lobe_models::models().map(|model| model.name).collect();
+    format!("{EVAL_HELP}{}", names.join(", "))
+}
+
 const EVAL_HELP: &str = "\
 Standard input:  lx,ly,lz,vx,vy,vz on each line, the directions to the light and to the viewer in the local frame
                  of the surface (normal = +z), unit length. Blank lines, # comments and a header line are skipped.
@@ -167,12 +176,21 @@ Examples:
   lobe eval --brdf '{\"lobes\": [{\"model\": \"phong\", \"ks\": 0.5, \"q\": 50}]}' --number f64 < pairs.csv
   lobe eval --brdf @paint.json < pairs.csv > values.csv
 
-Models in JSON:
-  {\"model\": \"lambert\", \"albedo\": [0.5, 0.1, 0.1]}      a colour may also be one number
-  {\"model\": \"phong\", \"ks\": 0.3, \"q\": 50}
-  {\"model\": \"blinn-phong\", \"ks\": 0.3, \"q\": 50, \"normalization\": \"normal-incidence\"}   or \"common\"
-  {\"model\": \"lecture-phong\", \"ks\": 0.3, \"q\": 50}
-  {\"model\": \"lecture-blinn-torrance\", \"ks\": 0.3, \"q\": 50}";
+A colour may be one number, a width alpha one or two ([ax, ay]). `lobe models` lists the parameters of each model.
+Models: ";
+
+/// `lobe models`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct ModelsArgs {
+    /// One model, such as microfacet; all of them without it
+    pub(crate) model: Option<String>,
+}
+
+const MODELS_HELP: &str = "\
+Examples:
+  lobe models
+  lobe models microfacet
+  lobe models --json";
 
 /// The number types that are there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

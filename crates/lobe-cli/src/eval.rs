@@ -4,8 +4,9 @@ use crate::args::{EvalArgs, Number};
 use crate::error::{Failure, reason};
 use crate::output;
 use crate::progress::Progress;
-use crate::spec::{self, Spec};
-use lobe::{Brdf, Real, Vec3};
+use crate::spec;
+use lobe::{Real, Vec3};
+use lobe_models::{Material, Number as Built};
 use serde_json::json;
 use std::fmt::Debug;
 use std::io::{BufRead, BufReader, BufWriter, IsTerminal as _, Read as _, Write};
@@ -28,7 +29,7 @@ pub enum Line<R> {
 }
 
 /// The scalar types that lines are read in.
-pub trait Scalar: Real + FromStr + Debug + Into<f64> {}
+pub trait Scalar: Real + Built + FromStr + Debug + Into<f64> {}
 impl Scalar for f32 {}
 impl Scalar for f64 {}
 
@@ -109,21 +110,21 @@ pub(crate) fn run(args: &EvalArgs, quiet: bool, json: bool) -> Result<(), Failur
     // Values that run over the terminal are progress enough.
     let bar = Progress::counting("pairs", quiet || std::io::stdout().is_terminal());
     match args.number {
-        Number::F32 => stream(&spec, 0.0_f32, args.normalize, json, &bar),
-        Number::F64 => stream(&spec, 0.0_f64, args.normalize, json, &bar),
+        Number::F32 => stream::<f32>(&spec, args.normalize, json, &bar),
+        Number::F64 => stream::<f64>(&spec, args.normalize, json, &bar),
     }
 }
 
 fn list_presets(json: bool) -> Result<(), Failure> {
     let mut text = String::new();
     if json {
-        let list: serde_json::Map<_, _> = spec::PRESETS
+        let list: serde_json::Map<_, _> = lobe_models::PRESETS
             .iter()
             .filter_map(|(name, text)| Some(((*name).to_owned(), serde_json::from_str(text).ok()?)))
             .collect();
         text = format!("{:#}\n", json!(list));
     } else {
-        for (name, spec) in spec::PRESETS {
+        for (name, spec) in lobe_models::PRESETS {
             text += &format!("{name:<24} {spec}\n");
         }
     }
@@ -131,8 +132,8 @@ fn list_presets(json: bool) -> Result<(), Failure> {
 }
 
 /// Reads, evaluates and prints until the input ends. What was right before a wrong line has been printed.
-fn stream<R: Scalar>(spec: &Spec, witness: R, normalize: bool, json: bool, bar: &Progress) -> Result<(), Failure> {
-    let material = spec.build(witness);
+fn stream<R: Scalar>(spec: &Material, normalize: bool, json: bool, bar: &Progress) -> Result<(), Failure> {
+    let material = spec.build::<R>();
     let mut input = BufReader::with_capacity(1 << 16, std::io::stdin().lock());
     let mut out = BufWriter::with_capacity(1 << 16, std::io::stdout().lock());
     let mut line = Vec::new();

@@ -1,4 +1,4 @@
-//! The command `lobe`: report, render, plot, eval and sweep.
+//! The command `lobe`: report, render, plot, eval, models and sweep.
 //!
 //! The program is this library and a `main` of one line, so that tests and fuzz targets can call the parsers:
 //! [`spec::parse`] for BRDFs in JSON, [`eval::parse_line`] for pairs of directions in CSV.
@@ -6,6 +6,7 @@
 mod args;
 pub mod error;
 pub mod eval;
+mod models;
 mod output;
 mod plot;
 mod progress;
@@ -38,6 +39,7 @@ pub fn main() -> ExitCode {
 fn run(args: &Args) -> Result<(), Failure> {
     match &args.command {
         Some(Command::Eval(eval)) => eval::run(eval, args.quiet, args.json),
+        Some(Command::Models(models)) => models::run(models, args.json),
         Some(Command::Plot(plot)) => plot::run(plot, args.quiet, args.json),
         Some(Command::Sweep(sweep)) => sweep::run(sweep, args.quiet, args.json),
         Some(Command::Completions { shell }) => completions(*shell),

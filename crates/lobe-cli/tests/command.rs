@@ -109,11 +109,12 @@ fn eval_names_the_line_and_keeps_what_was_right() {
 
 #[test]
 fn wrong_brdfs_say_what_would_be_right() {
-    let known = "the models are lambert, phong, blinn-phong, lecture-phong, lecture-blinn-torrance";
+    let known: Vec<_> = lobe_models::models().map(|model| model.name).collect();
+    let known = format!("the models are {}", known.join(", "));
     let run = lobe(&["eval", "--brdf", r#"{"lobes": [{"model": "cook"}]}"#], "");
     fails(&run, 3, &format!("--brdf:1:27: lobes[0]: unknown model `cook`; {known}"));
     let run = lobe(&["eval", "--brdf", r#"{"lobes": [{"model": "phong", "ks": 1, "q": 2000000}]}"#], "");
-    fails(&run, 3, "--brdf:1:51: lobes[0]: `q` is 2000000.0; an exponent from 0 to 1000000");
+    fails(&run, 3, "--brdf:1:51: lobes[0]: `q` is 2000000.0; a number from 0 to 1000000");
     let run = lobe(&["eval", "--brdf", "[]"], "");
     let right = "a BRDF is an object such as {\"lobes\": [{\"model\": \"lambert\", \"albedo\": 0.8}]}";
     fails(&run, 3, &format!("--brdf:1:1: expected an object; {right}"));
@@ -255,6 +256,41 @@ fn help_and_completions_are_there() {
     let presets: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
     assert_eq!(presets["paper"]["lobes"][0]["model"], "lambert");
     assert_eq!(lobe(&["shine"], "").code, Some(2));
+}
+
+#[test]
+fn models_are_those_of_the_catalogue() {
+    let run = lobe(&["models", "--json"], "");
+    let list: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
+    let names: Vec<_> = list.as_array().expect("a list").iter().filter_map(|model| model["name"].as_str()).collect();
+    assert_eq!(names, lobe_models::models().map(|model| model.name).collect::<Vec<_>>());
+    let (table, help) = (lobe(&["models"], "").out, lobe(&["eval", "--help"], "").out);
+    for name in names {
+        assert!(table.lines().any(|line| line.starts_with(&format!("{name}  "))), "{name}");
+        assert!(help.contains(name), "{name}");
+    }
+    let run = lobe(&["models", "microfact"], "");
+    assert_eq!(run.code, Some(2));
+    assert!(run.err.starts_with("error: unknown model `microfact`; the nearest are microfacet, "), "{}", run.err);
+    assert!(lobe(&["models", "phong"], "").out.contains("a number from 0 to 1000000"));
+}
+
+#[test]
+fn eval_takes_every_model() {
+    for model in lobe_models::models() {
+        let mut lobe_json = serde_json::json!({"model": model.name});
+        for parameter in model.parameters.iter().filter(|parameter| parameter.default.is_none()) {
+            lobe_json[parameter.name] = match parameter.kind {
+                lobe_models::Kind::Number { min, max } => serde_json::json!(min + (max - min) * 0.125),
+                lobe_models::Kind::Colour { max } => serde_json::json!(0.5 * max),
+                lobe_models::Kind::Widths => serde_json::json!([0.25, 0.5]),
+                lobe_models::Kind::Choice(words) => serde_json::json!(words[0]),
+            };
+        }
+        let brdf = serde_json::json!({"lobes": [lobe_json]}).to_string();
+        let run = lobe(&["eval", "--brdf", &brdf], "0,0,1,0,0.6,0.8\n");
+        assert_eq!((run.err.as_str(), run.code, run.out.lines().count()), ("", Some(0), 1), "{brdf}");
+    }
 }
 
 /// A floor and a material with a highlight that gains energy.

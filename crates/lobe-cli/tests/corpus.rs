@@ -2,7 +2,7 @@
 //!
 //! The files in `tests/corpus` were chosen by hand or found by the targets in `fuzz/`, of which they are the seeds.
 
-use lobe::{Brdf, Vec3};
+use lobe::Vec3;
 use lobe_cli::{eval, spec};
 use std::path::Path;
 
@@ -29,9 +29,9 @@ fn brdfs() {
         match spec::parse(&text, "x") {
             Ok(spec) => {
                 let (l, v) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.48, 0.36, 0.8));
-                let f = spec.build(0.0_f64).eval_cos(l, v);
+                let f = spec.build::<f64>().eval_cos(l, v);
                 assert!(f.r >= 0.0 && f.g >= 0.0 && f.b >= 0.0, "{path}: {f:?}");
-                let _ = spec.build(0.0_f32).eval(l.map(|c| c as f32), v.map(|c| c as f32));
+                let _ = spec.build::<f32>().eval(l.map(|c| c as f32), v.map(|c| c as f32));
                 let _ = (spec.description(), spec.warnings());
                 built += 1;
             }

@@ -37,7 +37,7 @@ proptest! {
         ]), 0..24,
     )) {
         if let Ok(spec) = spec::parse(&words.concat(), "x") {
-            let _ = (spec.build(0.0_f32), spec.description(), spec.warnings());
+            let _ = (spec.build::<f32>(), spec.description(), spec.warnings());
         }
     }
 }

@@ -52,6 +52,24 @@ pub(crate) struct Constructors {
     pub(crate) f64: fn(&Reader<'_, f64>) -> AnyBrdf<f64>,
 }
 
+impl Model {
+    /// The parameter of that name.
+    ///
+    /// # Errors
+    /// That there is none, and which there are.
+    pub fn parameter(&self, name: &str) -> Result<&'static Parameter, Error> {
+        self.parameters
+            .iter()
+            .find(|parameter| parameter.name == name)
+            .ok_or_else(|| Error(format!("model `{}` has no parameter `{name}`; {}", self.name, self.takes())))
+    }
+
+    fn takes(&self) -> String {
+        let names: Vec<_> = self.parameters.iter().map(|p| format!("`{}`", p.name)).collect();
+        format!("it takes {}", names.join(", "))
+    }
+}
+
 /// All models.
 pub fn models() -> impl Iterator<Item = &'static Model> {
     families::ALL.iter().copied().flatten()
@@ -83,17 +101,28 @@ impl Lobe {
     /// # Errors
     /// A value outside its domain, of the wrong kind, of a name that the model does not know, or missing.
     pub fn new(model: &'static Model, given: &[(&str, Value)]) -> Result<Self, Error> {
-        let listed = || {
-            let names: Vec<_> = model.parameters.iter().map(|p| format!("`{}`", p.name)).collect();
-            format!("it takes {}", names.join(", "))
-        };
-        if let Some((name, _)) = given.iter().find(|(name, _)| model.parameters.iter().all(|p| p.name != *name)) {
-            return Err(Error(format!("model `{}` has no parameter `{name}`; {}", model.name, listed())));
-        }
+        Self::checked(model, given, Parameter::check)
+    }
+
+    /// The same, but what the lobe is proportional to ([`Parameter::is_weight`]) may be above 1: then more light leaves
+    /// than arrives. Fits to measurements have such weights, for models that are far from 1 at a weight of 1.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn weighted(model: &'static Model, given: &[(&str, Value)]) -> Result<Self, Error> {
+        Self::checked(model, given, Parameter::check_weighted)
+    }
+
+    fn checked(
+        model: &'static Model,
+        given: &[(&str, Value)],
+        check: fn(&Parameter, Value) -> Result<Value, Error>,
+    ) -> Result<Self, Error> {
+        given.iter().try_for_each(|(name, _)| model.parameter(name).map(drop))?;
         let value = |parameter: &Parameter| match given.iter().find(|(name, _)| *name == parameter.name) {
-            Some((_, value)) => parameter.check(*value),
+            Some((_, value)) => check(parameter, *value),
             None => parameter.default.ok_or_else(|| {
-                Error(format!("model `{}` lacks its parameter `{}`; {}", model.name, parameter.name, listed()))
+                Error(format!("model `{}` lacks its parameter `{}`; {}", model.name, parameter.name, model.takes()))
             }),
         };
         Ok(Self { model, values: model.parameters.iter().map(value).collect::<Result<_, _>>()? })
@@ -114,6 +143,16 @@ impl Lobe {
     #[must_use]
     pub fn value(&self, name: &str) -> Option<Value> {
         self.values().find(|(parameter, _)| parameter.name == name).map(|(_, value)| value)
+    }
+
+    /// Its name with the parameters that shape it, for a table: `blinn-phong q=80`.
+    #[must_use]
+    pub fn description(&self) -> String {
+        let shaping = self.values().filter(|(parameter, value)| {
+            !matches!(value, Value::Colour(_)) && parameter.default.is_none_or(|default| default != *value)
+        });
+        let parts = shaping.map(|(parameter, value)| format!(" {}={}", parameter.name, value.bare()));
+        std::iter::once(self.model.name.to_owned()).chain(parts).collect()
     }
 
     /// The lobe in a number type.

@@ -14,16 +14,37 @@
 //! # Ok::<(), lobe_models::Error>(())
 //! ```
 //!
+//! A sum of such lobes is a [`Material`], which can be read from JSON or taken from the [`preset`]s:
+//!
+//! ```
+//! use lobe_models::Material;
+//!
+//! let text = r#"{"lobes": [{"model": "lambert", "albedo": [0.5, 0.05, 0.05]}, {"model": "phong", "ks": 0.04, "q": 80}]}"#;
+//! let material = Material::from_json(text)?;
+//! assert_eq!(material.name, "lambert + phong q=80");
+//! let wrong = Material::from_json(r#"{"lobes": [{"model": "phong", "ks": 0.04, "q": -1}]}"#);
+//! assert_eq!(wrong.unwrap_err().to_string(), "1:49: lobes[0]: `q` is -1.0; a number from 0 to 1000000");
+//! # Ok::<(), lobe_models::JsonError>(())
+//! ```
+//!
 //! A model is added in one place, its file under `families/`: the command reads it, the property suite and the sweep
 //! of the extremes run over it.
 
 mod catalogue;
 mod families;
+mod json;
+mod material;
+mod names;
 mod number;
 mod parameter;
+mod presets;
 mod reader;
 
 pub use catalogue::{Bound, Lobe, Model, model, models};
+pub use json::{JsonError, MAX_LOBES};
+pub use material::Material;
+pub use names::nearest;
 pub use number::{AnyBrdf, Number};
 pub use parameter::{Error, Kind, Parameter, Value};
+pub use presets::{PRESETS, preset};
 pub use reader::Reader;

@@ -101,26 +101,65 @@ impl Parameter {
     /// What was wrong and what would be right.
     pub fn check(&self, value: Value) -> Result<Value, Error> {
         let inside = |x: f64, min: f64, max: f64| x.is_finite() && x >= min && x <= max;
-        let (good, right) = match (self.kind, value) {
-            (Kind::Colour { max }, Value::Colour(c)) => {
-                (c.iter().all(|&x| inside(x, 0.0, max)), format!("a colour from 0 to {max}"))
-            }
-            (Kind::Colour { max }, _) => (false, format!("a colour from 0 to {max}")),
-            (Kind::Number { min, max }, Value::Number(x)) => {
-                (inside(x, min, max), format!("a number from {min} to {max}"))
-            }
-            (Kind::Number { min, max }, _) => (false, format!("a number from {min} to {max}")),
-            (Kind::Widths, Value::Widths(a)) => {
-                (a.iter().all(|&x| inside(x, ALPHA.0, ALPHA.1)), "a width from 0.0001 to 1, or two".to_owned())
-            }
-            (Kind::Widths, _) => (false, "a width from 0.0001 to 1, or two".to_owned()),
+        let good = match (self.kind, value) {
+            (Kind::Colour { max }, Value::Colour(c)) => c.iter().all(|&x| inside(x, 0.0, max)),
+            (Kind::Number { min, max }, Value::Number(x)) => inside(x, min, max),
+            (Kind::Widths, Value::Widths(a)) => a.iter().all(|&x| inside(x, ALPHA.0, ALPHA.1)),
             (Kind::Choice(words), Value::Choice(word)) => match words.iter().find(|w| **w == word) {
                 Some(own) => return Ok(Value::Choice(own)),
-                None => (false, format!("one of {}", words.join(", "))),
+                None => false,
             },
-            (Kind::Choice(words), _) => (false, format!("one of {}", words.join(", "))),
+            _ => false,
         };
-        if good { Ok(value) } else { Err(Error(format!("`{}` is {value}; {right}", self.name))) }
+        if good { Ok(value) } else { Err(Error(format!("`{}` is {value}; {}", self.name, self.domain()))) }
+    }
+}
+
+impl Parameter {
+    /// Whether the lobe is proportional to it: an albedo or a `ks`.
+    #[must_use]
+    pub fn is_weight(&self) -> bool {
+        matches!(self.kind, Kind::Colour { .. }) && matches!(self.name, "albedo" | "kd" | "ks")
+    }
+
+    /// [`check`](Self::check), but a weight may be above 1.
+    ///
+    /// # Errors
+    /// As for `check`.
+    pub fn check_weighted(&self, value: Value) -> Result<Value, Error> {
+        match value {
+            // The end of f32, so that the weight is finite in every number type.
+            Value::Colour(c) if self.is_weight() && c.iter().all(|x| (0.0..=f64::from(f32::MAX)).contains(x)) => {
+                Ok(value)
+            }
+            _ => self.check(value),
+        }
+    }
+
+    /// What it may be, in a few words: `a number from 0 to 1000000`.
+    #[must_use]
+    pub fn domain(&self) -> String {
+        match self.kind {
+            Kind::Colour { max } => format!("a colour from 0 to {max}"),
+            Kind::Number { min, max } => format!("a number from {min} to {max}"),
+            Kind::Widths => format!("a width from {} to {}, or two", ALPHA.0, ALPHA.1),
+            Kind::Choice(words) => format!("one of {}", words.join(", ")),
+        }
+    }
+}
+
+impl Value {
+    /// As it is written in a list of parameters: a word without quotes.
+    #[must_use]
+    pub fn bare(&self) -> String {
+        match self {
+            Self::Choice(word) => (*word).to_owned(),
+            // `1` and not `1.0`: it is read by people.
+            Self::Number(x) => x.to_string(),
+            Self::Widths([x, y]) if x == y => x.to_string(),
+            Self::Colour([r, g, b]) if r == g && g == b => r.to_string(),
+            other => other.to_string(),
+        }
     }
 }
 

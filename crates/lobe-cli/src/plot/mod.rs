@@ -14,8 +14,9 @@ pub(crate) use surface::surface;
 use crate::args::{Kind, PlotArgs};
 use crate::error::Failure;
 use crate::output;
-use crate::spec::{self, Spec};
+use crate::spec;
 use lobe::{Brdf, Vec3};
+use lobe_models::Material;
 use serde_json::json;
 use std::io::Write as _;
 
@@ -97,13 +98,13 @@ pub(crate) fn run(args: &PlotArgs, quiet: bool, json: bool) -> Result<(), Failur
     }
     let specs = specs(args)?;
     if !quiet {
-        for warning in specs.iter().flat_map(Spec::warnings) {
+        for warning in specs.iter().flat_map(Material::warnings) {
             let _ = writeln!(std::io::stderr(), "warning: {warning}");
         }
     }
-    let brdfs: Vec<_> = specs.iter().map(|spec| spec.build(0.0_f64)).collect();
+    let brdfs: Vec<_> = specs.iter().map(|spec| spec.build::<f64>()).collect();
     let series: Vec<_> =
-        specs.iter().zip(&brdfs).map(|(spec, brdf)| Series { name: legend_name(spec), brdf }).collect();
+        specs.iter().zip(&brdfs).map(|(spec, brdf)| Series { name: legend_name(spec), brdf: &**brdf }).collect();
     let svg = match (args.kind, series.first()) {
         (Kind::Polar, _) => polar(&series, setting),
         (Kind::Curve, _) => curve(&series, setting),
@@ -122,7 +123,7 @@ pub(crate) fn run(args: &PlotArgs, quiet: bool, json: bool) -> Result<(), Failur
 }
 
 /// The BRDFs to draw: those asked for, or a few that show what there is.
-fn specs(args: &PlotArgs) -> Result<Vec<Spec>, Failure> {
+fn specs(args: &PlotArgs) -> Result<Vec<Material>, Failure> {
     let given: Vec<&str> = args.brdf.iter().map(String::as_str).collect();
     let (names, most) = match args.kind {
         Kind::Compare if !given.is_empty() => {
@@ -140,7 +141,7 @@ fn specs(args: &PlotArgs) -> Result<Vec<Spec>, Failure> {
     names.into_iter().map(spec::from_argument).collect()
 }
 
-fn legend_name(spec: &Spec) -> String {
+fn legend_name(spec: &Material) -> String {
     let made_of = spec.description();
     if made_of == spec.name { made_of } else { format!("{}: {made_of}", spec.name) }
 }

@@ -241,10 +241,10 @@ mod tests {
     #[test]
     fn the_grid_ends_at_the_horizon_and_never_below() {
         let spec = crate::spec::from_argument("paper");
-        let brdf = spec.map(|spec| spec.build(0.0_f64));
+        let brdf = spec.map(|spec| spec.build::<f64>());
         for incidence in [0.0, 30.0, 85.0] {
             let Ok(brdf) = &brdf else { panic!("no preset") };
-            let series = Series { name: String::new(), brdf };
+            let series = Series { name: String::new(), brdf: &**brdf };
             let setting = Setting { incidence, cosine: false };
             let grid = grid(&series, setting, incidence.to_radians());
             for (v, value) in grid.iter().flatten() {

@@ -1,10 +1,10 @@
 //! What the mathematics promises, computed anew for the report.
 
 use super::random::Random;
-use crate::spec::{LobeSpec, NormalizationSpec, Spec};
 use crate::sweep::Outcome;
-use lobe::{Brdf, Rgb, Vec3};
+use lobe::{Rgb, Vec3};
 use lobe_energy::directional_albedo;
+use lobe_models::{Kind, Lobe, Model, Value, models};
 use lobe_verify::sweep::{FUNCTIONS, sweep, sweep_boundaries};
 use lobe_verify::ulp::summary;
 use rayon::prelude::*;
@@ -46,44 +46,121 @@ pub(crate) fn all(done: &(dyn Fn() + Sync)) -> Vec<Check> {
 /// How many there are.
 pub(crate) const COUNT: u64 = 5;
 
-/// Every model at one exponent, with coefficients of 1.
-fn lobes(q: f64) -> Vec<LobeSpec> {
-    let ks = [1.0; 3];
-    vec![
-        LobeSpec::Lambert { albedo: ks },
-        LobeSpec::Phong { ks, q },
-        LobeSpec::BlinnPhong { ks, q, normalization: NormalizationSpec::NormalIncidence },
-        LobeSpec::BlinnPhong { ks, q, normalization: NormalizationSpec::Common },
-        LobeSpec::LecturePhong { ks, q },
-        LobeSpec::LectureBlinnTorrance { ks, q },
-    ]
+/// A row of the tables: a model, and a word of it that is not the default one.
+#[derive(Clone, Copy, Debug)]
+struct Variant {
+    model: &'static Model,
+    word: Option<(&'static str, &'static str)>,
 }
 
-fn name(lobe: &LobeSpec) -> String {
-    match lobe {
-        LobeSpec::BlinnPhong { normalization: NormalizationSpec::Common, .. } => "blinn-phong (common)".to_owned(),
-        _ => lobe.model().to_owned(),
+/// Every model, once with its default words and once with each other word.
+fn variants() -> Vec<Variant> {
+    models()
+        .flat_map(|model| {
+            let other_words = model.parameters.iter().flat_map(|parameter| {
+                let words = match parameter.kind {
+                    Kind::Choice(words) => words,
+                    _ => &[],
+                };
+                let other = words.iter().filter(|word| parameter.default != Some(Value::Choice(word)));
+                other.map(|word| Some((parameter.name, *word)))
+            });
+            std::iter::once(None).chain(other_words).map(move |word| Variant { model, word })
+        })
+        .collect()
+}
+
+/// How sharp a lobe is in the checks: the exponent where the model has one, the width where it has that.
+#[derive(Clone, Copy, Debug)]
+struct Level {
+    q: f64,
+    alpha: f64,
+    /// Where in its range any other number is, and how large a colour that is no weight.
+    part: f64,
+}
+
+/// From the widest to the sharpest. The numbers are those of f32, so that both number types are given the same lobe.
+const LEVELS: [Level; 7] = [
+    Level { q: 0.0, alpha: 1.0, part: 0.0 },
+    Level { q: 1.0, alpha: 0.5, part: 1.0 },
+    Level { q: 8.0, alpha: 0.25, part: 0.5 },
+    Level { q: 50.0, alpha: 0.125, part: 0.25 },
+    Level { q: 400.0, alpha: 0.03125, part: 0.75 },
+    Level { q: 1e4, alpha: 0.00390625, part: 0.125 },
+    Level { q: 1e6, alpha: 0.0001220703125, part: 1.0 },
+];
+
+impl Variant {
+    fn name(&self) -> String {
+        match self.word {
+            Some((_, word)) => format!("{} ({word})", self.model.name),
+            None => self.model.name.to_owned(),
+        }
+    }
+
+    /// With weights of 1. `None` if the model refuses: then it is left out at this level.
+    fn at(&self, level: Level) -> Option<Lobe> {
+        let in_f32 = |x: f64| f64::from(x as f32);
+        let values: Vec<(&str, Value)> = self
+            .model
+            .parameters
+            .iter()
+            .map(|parameter| {
+                let value = match parameter.kind {
+                    Kind::Colour { max } if parameter.is_weight() => Value::Colour([max; 3]),
+                    // Half of the range at least: at 0 there is nothing to be seen.
+                    Kind::Colour { max } => Value::Colour([in_f32(max * (0.5 + 0.5 * level.part)); 3]),
+                    Kind::Number { .. } if parameter.name == "q" => Value::Number(level.q),
+                    Kind::Number { min, max } => {
+                        let inside = if min > 0.0 && max / min > 100.0 {
+                            min * (max / min).powf(level.part)
+                        } else {
+                            min + (max - min) * level.part
+                        };
+                        let near = in_f32(inside);
+                        Value::Number(if (min..=max).contains(&near) { near } else { inside })
+                    }
+                    Kind::Widths => Value::Widths([level.alpha; 2]),
+                    Kind::Choice(words) => {
+                        let chosen = self.word.filter(|(name, _)| *name == parameter.name).map(|(_, word)| word);
+                        let default = match parameter.default {
+                            Some(Value::Choice(word)) => Some(word),
+                            _ => words.first().copied(),
+                        };
+                        Value::Choice(chosen.or(default).unwrap_or_default())
+                    }
+                };
+                (parameter.name, value)
+            })
+            .collect();
+        Lobe::new(self.model, &values).ok()
+    }
+
+    fn kind(&self) -> &'static str {
+        if self.model.name.starts_with("lecture-") { "the lecture's highlight, no BRDF" } else { "BRDF" }
+    }
+
+    /// Whether it is said to reflect at most what arrives.
+    fn conserves(&self) -> bool {
+        match self.model.name {
+            "lambert" | "phong" | "microfacet" => true,
+            "blinn-phong" => self.word.is_none(),
+            _ => false,
+        }
     }
 }
-
-fn alone(lobe: &LobeSpec) -> Spec {
-    Spec { name: name(lobe), lobes: vec![*lobe] }
-}
-
-/// Exponents for the checks: from none to the sharpest.
-const EXPONENTS: [f64; 7] = [0.0, 1.0, 8.0, 50.0, 400.0, 1e4, 1e6];
 
 fn reciprocity() -> Check {
     let mut rows = Vec::new();
     let (mut holds, mut pairs) = (true, 0);
-    for index in 0..lobes(0.0).len() {
+    for variant in variants() {
         let (mut differing, mut not_zero) = (0, 0);
         let mut worst = 1.0_f64;
         let mut random = Random::new();
-        for q in EXPONENTS {
-            let Some(lobe) = lobes(q).get(index).copied() else { continue };
-            let brdf = alone(&lobe).build(0.0_f32);
-            for _ in 0..PAIRS / EXPONENTS.len() {
+        for level in LEVELS {
+            let Some(lobe) = variant.at(level) else { continue };
+            let brdf = lobe.build::<f32>();
+            for _ in 0..PAIRS / LEVELS.len() {
                 let (l, v) = random.pair();
                 let (one, other) = (brdf.eval(l, v).g, brdf.eval(v, l).g);
                 pairs += 1;
@@ -95,63 +172,57 @@ fn reciprocity() -> Check {
                 }
             }
         }
-        let Some(lobe) = lobes(0.0).get(index).copied() else { continue };
-        let verdict = match (lobe.is_reciprocal(), differing) {
+        let verdict = match (variant.model.reciprocal, differing) {
             (true, 0) if not_zero < LEAST_PAIRS => format!("too few pairs with a value: {not_zero}"),
             (true, 0) => "equal to the last bit".to_owned(),
             (true, _) => format!("{differing} pairs differ"),
             (false, _) => format!("not reciprocal, as documented: differs by a factor of up to {worst:.1e}"),
         };
-        holds &= !lobe.is_reciprocal() || (differing == 0 && not_zero >= LEAST_PAIRS);
-        rows.push(vec![name(&lobe), lobe_kind(&lobe).to_owned(), not_zero.to_string(), verdict]);
+        holds &= !variant.model.reciprocal || (differing == 0 && not_zero >= LEAST_PAIRS);
+        rows.push(vec![variant.name(), variant.kind().to_owned(), not_zero.to_string(), verdict]);
     }
     Check {
         name: "Reciprocity",
         promise: "Light and viewer can be exchanged: f(l, v) and f(v, l) have the same bits in f32.",
         holds,
-        found: format!("{pairs} random pairs, exponents from 0 to a million."),
+        found: format!("{pairs} random pairs, exponents from 0 to a million, widths from 1 to 1e-4."),
         columns: &["lobe", "kind", "pairs with a value", "f(l, v) against f(v, l)"],
         rows,
     }
 }
 
-fn lobe_kind(lobe: &LobeSpec) -> &'static str {
-    if lobe.is_reciprocal() { "BRDF" } else { "the lecture's highlight, no BRDF" }
-}
-
 fn precision() -> Check {
     let mut rows = Vec::new();
     let (mut holds, mut pairs) = (true, 0);
-    for index in 0..lobes(0.0).len() {
+    for variant in variants() {
         let mut random = Random::new();
         let mut errors = Vec::new();
         let mut worst = (0.0, String::new());
         let mut over_bound = 0.0_f64;
-        let mut model = String::new();
-        for q in EXPONENTS {
-            let Some(lobe) = lobes(q).get(index).copied() else { continue };
-            model = name(&lobe);
-            let (single, double) = (alone(&lobe).build(0.0_f32), alone(&lobe).build(0.0_f64));
+        for level in LEVELS {
+            let Some(lobe) = variant.at(level) else { continue };
+            let (single, double) = (lobe.build::<f32>(), lobe.build::<f64>());
             let peak = double.eval(up(), up()).g;
-            for _ in 0..PAIRS / EXPONENTS.len() {
+            for _ in 0..PAIRS / LEVELS.len() {
                 let (l, v) = random.pair();
                 let (l64, v64) = (l.map(f64::from), v.map(f64::from));
-                let (value, exact) = if lobe.is_reciprocal() {
+                let (value, exact) = if lobe.model().reciprocal {
                     (single.eval(l, v).g, double.eval(l64, v64).g)
                 } else {
                     (single.eval_cos(l, v).g, double.eval_cos(l64, v64).g)
                 };
-                // Below 2^-126 of the peak a lobe is 0 in f32, as documented.
-                if exact <= peak * f64::from(f32::MIN_POSITIVE) * 1.001 {
+                // Towards the ends of f32 a factor leaves its range while the product is still inside; where the value
+                // itself has left it, there is none.
+                if exact <= peak * f64::from(f32::MIN_POSITIVE) * 1.001 || !(1e-30..f64::from(f32::MAX)).contains(&exact) {
                     continue;
                 }
                 let error = (f64::from(value) - exact).abs() / exact;
                 errors.push(error);
-                let part = error / bound(&lobe, l64, v64, exact / peak);
+                let part = error / lobe.tolerance(l64, v64);
                 // `max` would pass over a NaN.
                 over_bound = if part.is_nan() { f64::INFINITY } else { over_bound.max(part) };
                 if error > worst.0 || error.is_nan() {
-                    worst = (error, format!("q = {q}, l = {}, v = {}", vector(l), vector(v)));
+                    worst = (error, format!("{}, l = {}, v = {}", lobe.description(), vector(l), vector(v)));
                 }
             }
         }
@@ -160,7 +231,7 @@ fn precision() -> Check {
         holds &= over_bound <= 1.0 && errors.len() >= LEAST_PAIRS;
         let row = [found.median, found.percentile_99, found.worst].map(|error| format!("{error:.2e}"));
         let part = format!("{:.0} %", over_bound * 100.0);
-        rows.push([vec![model], row.to_vec(), vec![part, worst.1]].concat());
+        rows.push([vec![variant.name()], row.to_vec(), vec![part, worst.1]].concat());
     }
     Check {
         name: "f32 against f64",
@@ -174,25 +245,6 @@ fn precision() -> Check {
     }
 }
 
-/// The bound on the relative error that the lobe's documentation states; for the lecture's highlights, which have the
-/// same power and another factor, two roundings more. Where it makes no promise, infinity.
-fn bound(lobe: &LobeSpec, l: Vec3<f64>, v: Vec3<f64>, part_of_peak: f64) -> f64 {
-    let depth = part_of_peak.ln().abs();
-    let more = if lobe.is_reciprocal() { 0.0 } else { 2.0 };
-    match *lobe {
-        LobeSpec::Lambert { .. } => 2.0 * U,
-        LobeSpec::Phong { q, .. } | LobeSpec::LecturePhong { q, .. } => {
-            let c = v.z * l.z - v.x * l.x - v.y * l.y;
-            if c < 1.0 / 4096.0 {
-                f64::INFINITY
-            } else {
-                U * (7.0 + 6.0 * depth + 5.0 * q * (1.0 / c - 1.0).abs() + more)
-            }
-        }
-        _ => U * (14.0 + 14.0 * depth + more),
-    }
-}
-
 fn up() -> Vec3<f64> {
     Vec3::new(0.0, 0.0, 1.0)
 }
@@ -201,65 +253,76 @@ fn vector(d: Vec3<f32>) -> String {
     format!("({:?}, {:?}, {:?})", d.x, d.y, d.z)
 }
 
-/// An albedo that its quadrature knows less well than this is not known.
-const LARGEST_ERROR: f64 = 1e-6;
+/// An albedo that its quadrature knows less well than this is not known. Sharp lobes at 89° are known to three digits.
+const LARGEST_ERROR: f64 = 1e-2;
 /// The angles from the normal at which energy is checked.
 const ANGLES: [f64; 6] = [0.0, 30.0, 55.0, 75.0, 85.0, 89.0];
 
 fn energy() -> Check {
-    let cases: Vec<(LobeSpec, f64)> =
-        EXPONENTS.iter().flat_map(|&q| lobes(q).into_iter().map(move |lobe| (lobe, q))).collect();
-    let highest: Vec<(LobeSpec, f64, f64, f64)> = cases
+    let cases: Vec<(Variant, Lobe)> = variants()
+        .into_iter()
+        .flat_map(|variant| LEVELS.iter().filter_map(move |&level| Some((variant, variant.at(level)?))))
+        .collect();
+    let highest: Vec<(String, String, (f64, f64))> = cases
         .into_par_iter()
-        .map(|(lobe, q)| {
-            let brdf = alone(&lobe).build(0.0_f64);
+        .map(|(variant, lobe)| {
+            let brdf = lobe.build::<f64>();
             let of = |angle: f64| {
                 let (sin, cos) = angle.to_radians().sin_cos();
-                let albedo = directional_albedo(&brdf, Vec3::new(sin, 0.0, cos));
+                let albedo = directional_albedo(&*brdf, Vec3::new(sin, 0.0, cos));
                 // A value that is not known, or not a number, is above everything.
-                if albedo.error <= LARGEST_ERROR && albedo.value.g.is_finite() { albedo.value.g } else { f64::INFINITY }
+                let known = albedo.error <= LARGEST_ERROR && albedo.value.g.is_finite();
+                if known { (albedo.value.g, albedo.error) } else { (f64::INFINITY, 0.0) }
             };
             let (angle, albedo) = ANGLES
                 .map(|angle| (angle, of(angle)))
                 .into_iter()
-                .fold((0.0, 0.0), |best, next| if next.1 > best.1 { next } else { best });
-            (lobe, q, angle, albedo)
+                .fold((0.0, (0.0, 0.0)), |best, next| if next.1.0 > best.1.0 { next } else { best });
+            (variant.name(), format!("{}, {angle}°", shape(&lobe)), albedo)
         })
         .collect();
 
     let mut rows = Vec::new();
     let mut holds = true;
-    for lobe in lobes(0.0) {
-        let model = name(&lobe);
-        let same = highest.iter().filter(|(other, ..)| name(other) == model);
-        let (q, angle, albedo) = same.fold(
-            (0.0, 0.0, 0.0),
-            |best, &(_, q, angle, albedo)| if albedo > best.2 { (q, angle, albedo) } else { best },
-        );
-        let conserves = matches!(
-            lobe,
-            LobeSpec::Lambert { .. }
-                | LobeSpec::Phong { .. }
-                | LobeSpec::BlinnPhong { normalization: NormalizationSpec::NormalIncidence, .. }
-        );
-        let fits = albedo <= 1.0 + 1e-6;
-        holds &= fits || (!conserves && albedo.is_finite());
+    for variant in variants() {
+        let same = highest.iter().filter(|(name, ..)| *name == variant.name());
+        let (at, (albedo, error)) = same.fold(("", (0.0, 0.0)), |best, (_, at, albedo)| {
+            if albedo.0 > best.1.0 { (at.as_str(), *albedo) } else { best }
+        });
+        let conserves = variant.conserves();
+        let fits = albedo <= 1.0 + 1e-6 + error;
+        holds &= fits || !conserves;
         let verdict = match (fits, conserves) {
-            _ if albedo == f64::INFINITY => "NOT KNOWN",
             (true, _) => "at most 1",
             (false, true) => "GAINS ENERGY",
-            (false, false) => "gains energy, as documented",
+            (false, false) if albedo == f64::INFINITY => "not known: its integral does not converge",
+            (false, false) => "gains energy; no promise is made",
         };
-        let at = if lobe.exponent().is_none() { format!("{angle}°") } else { format!("q = {q}, {angle}°") };
-        rows.push(vec![model, format!("{albedo:.5}"), at, verdict.to_owned()]);
+        let at = at.trim_start_matches(", ").to_owned();
+        rows.push(vec![variant.name(), digits(albedo, error), at, verdict.to_owned()]);
     }
     Check {
         name: "Energy",
         promise: "With a coefficient of 1, a lobe that conserves energy reflects at most what arrives.",
         holds,
-        found: format!("Quadrature at {} angles and {} exponents.", ANGLES.len(), EXPONENTS.len()),
+        found: format!("Quadrature at {} angles and {} widths.", ANGLES.len(), LEVELS.len()),
         columns: &["lobe", "highest albedo", "at", "verdict"],
         rows,
+    }
+}
+
+/// As many digits as are known.
+fn digits(value: f64, error: f64) -> String {
+    let known = (-error.max(1e-6).log10()).floor().clamp(1.0, 5.0) as usize;
+    if value.is_finite() { format!("{value:.known$}") } else { "–".to_owned() }
+}
+
+/// The exponent or the width, for a table.
+fn shape(lobe: &Lobe) -> String {
+    match (lobe.value("q"), lobe.value("alpha")) {
+        (Some(q), _) => format!("q = {}", q.bare()),
+        (None, Some(alpha)) => format!("alpha = {}", alpha.bare()),
+        (None, None) => String::new(),
     }
 }
 
@@ -296,15 +359,13 @@ fn functions() -> Check {
 fn strange_numbers() -> Check {
     let mut rows = Vec::new();
     let mut holds = true;
-    for index in 0..lobes(0.0).len() {
+    for variant in variants() {
         let mut counts = [0_usize; 3];
         let mut wrong = [0_usize; 3];
         let mut random = Random::new();
-        let mut model = String::new();
-        for q in EXPONENTS {
-            let Some(lobe) = lobes(q).get(index).copied() else { continue };
-            model = name(&lobe);
-            let brdf = alone(&lobe).build(0.0_f32);
+        for level in LEVELS {
+            let Some(lobe) = variant.at(level) else { continue };
+            let brdf = lobe.build::<f32>();
             for _ in 0..200 {
                 let (l, v) = random.pair();
                 // Both values, the plain one and the one with the cosine.
@@ -322,9 +383,14 @@ fn strange_numbers() -> Check {
                 }
                 try_all(1, Vec3 { z: -l.z, ..l }, v, |x| x == 0.0);
                 try_all(1, l, Vec3 { z: -v.z, ..v }, |x| x == 0.0);
-                try_all(2, l, v, |x| x.is_finite() && x >= 0.0);
+                let good: fn(f32) -> bool = |x| x.is_finite() && x >= 0.0;
+                try_all(2, l, v, good);
                 let grazing = Vec3 { z: 1e-20, ..v };
-                try_all(2, l, grazing, |x| x.is_finite() && x >= 0.0);
+                // Some models leave the range of f32 there, as they say; `eval_cos` does not.
+                try_all(2, l, grazing, if lobe.model().finite { good } else { |x| x >= 0.0 });
+                counts[2] += 1;
+                let Rgb { r, g, b } = brdf.eval_cos(l, grazing);
+                wrong[2] += usize::from(![r, g, b].into_iter().all(good));
             }
         }
         holds &= wrong == [0; 3];
@@ -332,7 +398,7 @@ fn strange_numbers() -> Check {
             0 => format!("all {count}"),
             _ => format!("{wrong} of {count} WRONG"),
         });
-        rows.push(std::iter::once(model).chain(cells).collect());
+        rows.push(std::iter::once(variant.name()).chain(cells).collect());
     }
     Check {
         name: "Strange numbers",

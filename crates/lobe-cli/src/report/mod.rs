@@ -179,10 +179,10 @@ fn plots(scene: &Scene) -> Vec<Plot> {
 
     let presets = ["mirror-lobe", "half-vector-lobe"].map(spec::from_argument);
     if let [Ok(mirror), Ok(half)] = presets {
-        let brdfs = [mirror.build(0.0_f64), half.build(0.0_f64)];
+        let brdfs = [mirror.build::<f64>(), half.build::<f64>()];
         let names = ["phong q=50", "blinn-phong q=50"];
         let series: Vec<Series<'_>> =
-            names.iter().zip(&brdfs).map(|(name, brdf)| Series { name: (*name).to_owned(), brdf }).collect();
+            names.iter().zip(&brdfs).map(|(name, brdf)| Series { name: (*name).to_owned(), brdf: &**brdf }).collect();
         let setting = Setting { incidence: 55.0, cosine: false };
         plots.push(Plot {
             title: "The same two as BRDFs".to_owned(),

@@ -1,0 +1,79 @@
+//! A material: a sum of lobes.
+
+use crate::catalogue::Lobe;
+use crate::number::{AnyBrdf, Number};
+use crate::parameter::Value;
+use lobe::{Black, Brdf, Rgb, Vec3};
+
+/// A sum of lobes with a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// What to call it.
+    pub name: String,
+    /// The lobes.
+    pub lobes: Vec<Lobe>,
+}
+
+impl Material {
+    /// What it is made of, in a few words: `lambert + blinn-phong q=80`.
+    #[must_use]
+    pub fn description(&self) -> String {
+        let lobes: Vec<_> = self.lobes.iter().map(Lobe::description).collect();
+        if lobes.is_empty() { "no lobes".to_owned() } else { lobes.join(" + ") }
+    }
+
+    /// What is allowed and still suspicious: a weight above 1.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for (index, lobe) in self.lobes.iter().enumerate() {
+            for (parameter, value) in lobe.values() {
+                if matches!(value, Value::Colour(c) if parameter.is_weight() && c.iter().any(|&x| x > 1.0)) {
+                    warnings.push(format!(
+                        "{}: lobes[{index}]: `{}` is above 1, so more light leaves than arrives; use at most 1",
+                        self.name, parameter.name
+                    ));
+                }
+            }
+        }
+        warnings
+    }
+
+    /// Whether every lobe is reciprocal.
+    #[must_use]
+    pub fn is_reciprocal(&self) -> bool {
+        self.lobes.iter().all(|lobe| lobe.model().reciprocal)
+    }
+
+    /// The BRDF in a number type.
+    #[must_use]
+    pub fn build<R: Number>(&self) -> AnyBrdf<R> {
+        Box::new(Composite { lobes: self.lobes.iter().map(Lobe::build).collect() })
+    }
+}
+
+/// A sum of lobes put together at run time. Each costs a call through a pointer; who knows the lobes beforehand writes
+/// `a + b` and pays for no choice.
+struct Composite<R> {
+    lobes: Vec<AnyBrdf<R>>,
+}
+
+impl<R: Number> Composite<R> {
+    fn sum(&self, value: impl Fn(&dyn Brdf<R>) -> Rgb<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        // The first lobe as it is: a sum that starts from 0 would turn −0 into +0.
+        let mut values = self.lobes.iter().map(|lobe| value(&**lobe));
+        match values.next() {
+            Some(first) => values.fold(first, |sum, value| sum + value),
+            None => Black.eval(l, v),
+        }
+    }
+}
+
+impl<R: Number> Brdf<R> for Composite<R> {
+    fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.sum(|lobe| lobe.eval(l, v), l, v)
+    }
+    fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.sum(|lobe| lobe.eval_cos(l, v), l, v)
+    }
+}
