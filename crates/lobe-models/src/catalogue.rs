@@ -4,7 +4,7 @@ use crate::families;
 use crate::number::{AnyBrdf, Number};
 use crate::parameter::{Error, Parameter, Value};
 use crate::reader::Reader;
-use lobe::Vec3;
+use lobe::{Brdf, Rgb, Vec3};
 
 /// A model by name.
 #[derive(Clone, Copy, Debug)]
@@ -87,11 +87,13 @@ pub struct Lobe {
     model: &'static Model,
     /// In the order of the model's parameters.
     values: Vec<Value>,
+    /// What the whole lobe is multiplied with.
+    weight: [f64; 3],
 }
 
 impl PartialEq for Lobe {
     fn eq(&self, other: &Self) -> bool {
-        self.model.name == other.model.name && self.values == other.values
+        self.model.name == other.model.name && self.values == other.values && self.weight == other.weight
     }
 }
 
@@ -125,13 +127,28 @@ impl Lobe {
                 Error(format!("model `{}` lacks its parameter `{}`; {}", model.name, parameter.name, model.takes()))
             }),
         };
-        Ok(Self { model, values: model.parameters.iter().map(value).collect::<Result<_, _>>()? })
+        Ok(Self { model, values: model.parameters.iter().map(value).collect::<Result<_, _>>()?, weight: [1.0; 3] })
     }
 
     /// The model.
     #[must_use]
     pub fn model(&self) -> &'static Model {
         self.model
+    }
+
+    /// The same lobe, multiplied with a colour: a lobe without a weight among its parameters gets one.
+    ///
+    /// # Errors
+    /// A channel that is negative or not finite in `f32`.
+    pub fn with_weight(self, weight: [f64; 3]) -> Result<Self, Error> {
+        Parameter::reflectance("weight", "").check_weighted(Value::Colour(weight))?;
+        Ok(Self { weight, ..self })
+    }
+
+    /// What the whole lobe is multiplied with: 1 if nothing else was said.
+    #[must_use]
+    pub fn weight(&self) -> [f64; 3] {
+        self.weight
     }
 
     /// The parameters with their values.
@@ -158,7 +175,12 @@ impl Lobe {
     /// The lobe in a number type.
     #[must_use]
     pub fn build<R: Number>(&self) -> AnyBrdf<R> {
-        R::constructor(self.model)(&Reader::new(self.model.parameters, &self.values))
+        let lobe = R::constructor(self.model)(&Reader::new(self.model.parameters, &self.values));
+        if self.weight == [1.0; 3] {
+            return lobe;
+        }
+        let [r, g, b] = self.weight.map(R::from_f64);
+        Box::new(Weighted { lobe, weight: Rgb::new(r, g, b) })
     }
 
     /// How far `f32` may be from `f64` of the same inputs, relatively, for these directions; infinite where the bound
@@ -169,5 +191,20 @@ impl Lobe {
             Bound::Constant => Bound::WORST,
             Bound::Derived { at, .. } => at(&Reader::new(self.model.parameters, &self.values), l, v),
         }
+    }
+}
+
+/// A lobe times a colour.
+struct Weighted<R> {
+    lobe: AnyBrdf<R>,
+    weight: Rgb<R>,
+}
+
+impl<R: Number> Brdf<R> for Weighted<R> {
+    fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.weight * self.lobe.eval(l, v)
+    }
+    fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.weight * self.lobe.eval_cos(l, v)
     }
 }

@@ -1,6 +1,6 @@
 //! Materials in JSON: `{"lobes": [{"model": "lambert", "albedo": 0.8}, {"model": "phong", "ks": 0.1, "q": 50}]}`.
 //!
-//! The parameters are those of the catalogue. A colour may be one number, widths may be one or two; a word that brings
+//! The parameters are those of the catalogue, and a `weight` that the whole lobe is multiplied with. A colour may be one number, widths may be one or two; a word that brings
 //! parameters of its own may hold them, so that `"fresnel": {"schlick": {"f0": 0.04}}` is another spelling of
 //! `"fresnel": "schlick", "f0": 0.04`.
 //!
@@ -17,6 +17,9 @@ use std::fmt;
 
 /// More lobes than any material has; a file with more is another kind of file.
 pub const MAX_LOBES: usize = 1000;
+
+/// What every lobe may be multiplied with.
+static WEIGHT: Parameter = Parameter::reflectance("weight", "what the whole lobe is multiplied with");
 
 /// More numbers than any parameter has.
 const MAX_NUMBERS: usize = 16;
@@ -182,6 +185,8 @@ impl Given {
             return Err(E::custom(format!("duplicate field `{name}`; once is enough")));
         }
         match self.model {
+            // Every lobe has one, whatever the model.
+            _ if name == WEIGHT.name => Ok(name),
             Some(model) => model.parameter(&name).map(|_| name).map_err(E::custom),
             None => Ok(name),
         }
@@ -189,6 +194,9 @@ impl Given {
 
     /// The parameter, if the model is known already.
     fn parameter(&self, name: &str) -> Option<&'static Parameter> {
+        if name == WEIGHT.name {
+            return Some(&WEIGHT);
+        }
         self.model.and_then(|model| model.parameter(name).ok())
     }
 
@@ -204,11 +212,19 @@ impl Given {
     fn lobe(self) -> Result<Lobe, String> {
         let model = self.model.ok_or_else(|| format!("a lobe has a `model`; {}", known()))?;
         let mut values = Vec::new();
+        let mut weight = [1.0; 3];
         for (name, raw) in &self.values {
+            if name == WEIGHT.name {
+                if let Value::Colour(colour) = raw.value(&WEIGHT)? {
+                    weight = colour;
+                }
+                continue;
+            }
             let parameter = model.parameter(name).map_err(|error| error.to_string())?;
             values.push((name.as_str(), raw.value(parameter)?));
         }
-        Lobe::weighted(model, &values).map_err(|error| error.to_string())
+        let lobe = Lobe::weighted(model, &values).and_then(|lobe| lobe.with_weight(weight));
+        lobe.map_err(|error| error.to_string())
     }
 }
 
@@ -430,6 +446,9 @@ impl Serialize for Lobe {
         for (parameter, value) in self.values() {
             map.serialize_entry(parameter.name, &value)?;
         }
+        if self.weight() != [1.0; 3] {
+            map.serialize_entry(WEIGHT.name, &self.weight())?;
+        }
         map.end()
     }
 }
@@ -446,6 +465,7 @@ impl Serialize for Material {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lobe::{Brdf as _, Vec3};
 
     fn message(text: &str) -> String {
         Material::from_json(text).map_or_else(|error| error.to_string(), |spec| panic!("accepted: {spec:?}"))
@@ -523,6 +543,20 @@ mod tests {
         assert!(wrong(r#"{"model": "microfacet", "masking": {}}"#).contains("an empty object"));
         assert!(wrong(r#"{"model": "microfacet", "f0": {"a": {}}}"#).contains("`f0` is `a`; a colour"));
         assert!(wrong(r#"{"model": "microfacet", "masking": {"smith-separable": {}, "x": {}}}"#).contains("one word"));
+    }
+
+    #[test]
+    fn a_weight_multiplies_any_lobe() {
+        let (l, v) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.6, 0.8));
+        let plain = one(r#"{"model": "microfacet", "alpha": 0.5, "f0": 0.5}"#).build::<f64>().eval(l, v);
+        let text = r#"{"model": "microfacet", "alpha": 0.5, "f0": 0.5, "weight": [0, 0.5, 3]}"#;
+        let weighted = one(text).build::<f64>().eval(l, v);
+        assert_eq!(<[f64; 3]>::from(weighted), [0.0, 0.5 * plain.g, 3.0 * plain.b]);
+        assert_eq!(one(text).warnings().len(), 1);
+        let text = serde_json::to_string(&one(text)).unwrap_or_else(|error| panic!("{error}"));
+        assert!(text.contains(r#""weight":[0.0,0.5,3.0]"#));
+        let wrong = message(r#"{"lobes": [{"weight": [0, -1, 0], "model": "lambert", "albedo": 1}]}"#);
+        assert!(wrong.ends_with("lobes[0]: `weight` is -1.0; a colour from 0 to 1"), "{wrong}");
     }
 
     #[test]

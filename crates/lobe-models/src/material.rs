@@ -27,11 +27,13 @@ impl Material {
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         for (index, lobe) in self.lobes.iter().enumerate() {
-            for (parameter, value) in lobe.values() {
-                if matches!(value, Value::Colour(c) if parameter.is_weight() && c.iter().any(|&x| x > 1.0)) {
+            let parameters = lobe.values().filter(|(parameter, _)| parameter.is_weight());
+            let weights = parameters.map(|(parameter, value)| (parameter.name, value));
+            for (name, value) in weights.chain([("weight", Value::Colour(lobe.weight()))]) {
+                if matches!(value, Value::Colour(c) if c.iter().any(|&x| x > 1.0)) {
                     warnings.push(format!(
-                        "{}: lobes[{index}]: `{}` is above 1, so more light leaves than arrives; use at most 1",
-                        self.name, parameter.name
+                        "{}: lobes[{index}]: `{name}` is above 1, so more light leaves than arrives; use at most 1",
+                        self.name
                     ));
                 }
             }

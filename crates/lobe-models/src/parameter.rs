@@ -119,7 +119,7 @@ impl Parameter {
     /// Whether the lobe is proportional to it: an albedo or a `ks`.
     #[must_use]
     pub fn is_weight(&self) -> bool {
-        matches!(self.kind, Kind::Colour { .. }) && matches!(self.name, "albedo" | "kd" | "ks")
+        matches!(self.kind, Kind::Colour { .. }) && matches!(self.name, "albedo" | "kd" | "ks" | "weight")
     }
 
     /// [`check`](Self::check), but a weight may be above 1.
