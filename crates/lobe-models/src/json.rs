@@ -465,7 +465,7 @@ impl Serialize for Material {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lobe::{Brdf as _, Vec3};
+    use lobe::Vec3;
 
     fn message(text: &str) -> String {
         Material::from_json(text).map_or_else(|error| error.to_string(), |spec| panic!("accepted: {spec:?}"))
@@ -503,11 +503,11 @@ mod tests {
             ),
             (
                 r#"{"lobes": [{"model": "lambert", "albedo": 0.5, "q": 2}]}"#,
-                "1:51: lobes[0]: model `lambert` has no parameter `q`; it takes `albedo`",
+                "1:50: lobes[0]: model `lambert` has no parameter `q`; it takes `albedo`",
             ),
             (
                 r#"{"lobes": [{"model": "lambert", "albdo": 1}]}"#,
-                "1:40: lobes[0]: model `lambert` has no parameter `albdo`; it takes `albedo`",
+                "1:39: lobes[0]: model `lambert` has no parameter `albdo`; it takes `albedo`",
             ),
             (
                 r#"{"lobes": [{"model": "microfacet", "alpha": [0.1, 2], "f0": 1}]}"#,

@@ -27,8 +27,6 @@ pub(crate) struct Check {
 const PAIRS: usize = 20_000;
 /// So many of them at least have a value other than 0, or a check proves nothing.
 const LEAST_PAIRS: usize = PAIRS / 10;
-/// The rounding unit of `f32`.
-const U: f64 = 1.0 / (1_u64 << 24) as f64;
 
 /// All checks.
 pub(crate) fn all(done: &(dyn Fn() + Sync)) -> Vec<Check> {
@@ -111,6 +109,10 @@ impl Variant {
                     // Half of the range at least: at 0 there is nothing to be seen.
                     Kind::Colour { max } => Value::Colour([in_f32(max * (0.5 + 0.5 * level.part)); 3]),
                     Kind::Number { .. } if parameter.name == "q" => Value::Number(level.q),
+                    // Widths that have the names of their papers.
+                    Kind::Number { min, max } if matches!(parameter.name, "m" | "c") => {
+                        Value::Number(level.alpha.clamp(min, max))
+                    }
                     Kind::Number { min, max } => {
                         let inside = if min > 0.0 && max / min > 100.0 {
                             min * (max / min).powf(level.part)
@@ -336,11 +338,9 @@ fn digits(value: f64, error: f64) -> String {
 
 /// The exponent or the width, for a table.
 fn shape(lobe: &Lobe) -> String {
-    match (lobe.value("q"), lobe.value("alpha")) {
-        (Some(q), _) => format!("q = {}", q.bare()),
-        (None, Some(alpha)) => format!("alpha = {}", alpha.bare()),
-        (None, None) => String::new(),
-    }
+    let shapes = ["q", "alpha", "m", "c"].into_iter();
+    let mut known = shapes.filter_map(|name| Some(format!("{name} = {}", lobe.value(name)?.bare())));
+    known.next().unwrap_or_default()
 }
 
 fn functions() -> Check {
