@@ -511,17 +511,17 @@ mod tests {
             ),
             (
                 r#"{"lobes": [{"model": "microfacet", "alpha": [0.1, 2], "f0": 1}]}"#,
-                "1:52: lobes[0]: `alpha` is 2.0; a width from 0.0001 to 1, or two",
+                "1:51: lobes[0]: `alpha` is 2.0; a width from 0.0001 to 1, or two",
             ),
             (
                 r#"{"lobes": [{"model": "microfacet", "alpha": 0.1, "masking": "smiht", "f0": 1}]}"#,
                 "1:67: lobes[0]: `masking` is `smiht`; one of ",
             ),
-            (r#"{"lobes": [{"ks": 1, "q": "x", "model": "phong"}]}"#, "1:49: lobes[0]: `q` is `x`; a number from 0"),
+            (r#"{"lobes": [{"ks": 1, "q": "x", "model": "phong"}]}"#, "1:48: lobes[0]: `q` is `x`; a number from 0"),
             (r#"{"lobes": [{"model": "phong", "ks": 1, "ks": 1}]}"#, "1:43: lobes[0]: duplicate field `ks`"),
             (r#"{"lobes": [{}]}"#, "1:13: lobes[0]: a lobe has a `model`; the models are lambert, "),
         ] {
-            assert!(message(text).starts_with(expected), "{}", message(text));
+            assert!(message(text).starts_with(expected), "{} against {expected}", message(text));
         }
         assert!(message(r#"{"lobes": [{"model": "lambert", "albedo": NaN}]}"#).starts_with("1:43: "));
         assert!(message(r#"{"lobes": [{"model": "phong", "ks": 1e400, "q": 1}]}"#).starts_with("1:"));
