@@ -41,6 +41,11 @@ impl Progress {
         }
     }
 
+    /// Prints while the bar is out of the way.
+    pub(crate) fn suspend<T>(&self, print: impl FnOnce() -> T) -> T {
+        self.bar.suspend(print)
+    }
+
     /// `steps` are done in all.
     pub(crate) fn set(&self, steps: u64) {
         self.advance(steps.saturating_sub(self.bar.position()));

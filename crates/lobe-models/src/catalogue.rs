@@ -5,6 +5,7 @@ use crate::number::{AnyBrdf, Number};
 use crate::parameter::{Error, Parameter, Value};
 use crate::reader::Reader;
 use lobe::{Brdf, Rgb, Vec3};
+use std::fmt;
 
 /// A model by name.
 #[derive(Clone, Copy, Debug)]
@@ -206,5 +207,22 @@ impl<R: Number> Brdf<R> for Weighted<R> {
     }
     fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
         self.weight * self.lobe.eval_cos(l, v)
+    }
+}
+
+/// In JSON, as the command reads it: `{"model": "phong", "ks": [0.5, 0.5, 0.5], "q": 20.0}`.
+impl fmt::Display for Lobe {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{{\"model\": \"{}\"", self.model.name)?;
+        for (parameter, value) in self.values() {
+            match value {
+                Value::Choice(word) => write!(f, ", \"{}\": \"{word}\"", parameter.name)?,
+                value => write!(f, ", \"{}\": {value}", parameter.name)?,
+            }
+        }
+        if self.weight != [1.0; 3] {
+            write!(f, ", \"weight\": {:?}", self.weight)?;
+        }
+        f.write_str("}")
     }
 }
