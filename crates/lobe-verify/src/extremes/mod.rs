@@ -24,6 +24,7 @@ use rayon::prelude::*;
 use std::fmt;
 
 /// Values below this are not compared relatively: a factor of theirs may be subnormal in `f32`, and has lost its digits.
+/// Nor are those that only a cosine near 0 in the denominator lifts above it: the larger cosine times `f_r` is below it.
 pub const DARK: f64 = 1e-30;
 
 /// The target for the 99th percentile of a model whose bound is constant.
@@ -274,7 +275,8 @@ enum Verdict {
     Fault(FaultKind),
 }
 
-fn judge(value: f32, exact: f64, bound: f64, finite: bool) -> Verdict {
+/// `lifted` is what `f_r` may have gained from a small cosine in its denominator.
+fn judge(value: f32, exact: f64, bound: f64, finite: bool, lifted: f64) -> Verdict {
     const MOST: f64 = f32::MAX as f64;
     if finite && !value.is_finite() {
         return Verdict::Fault(FaultKind::NotFinite);
@@ -286,9 +288,13 @@ fn judge(value: f32, exact: f64, bound: f64, finite: bool) -> Verdict {
         return Verdict::Skipped;
     }
     let value = f64::from(value);
-    if exact < DARK {
+    if exact < DARK * lifted {
         // A value that is not compared is still as dark.
-        return if value <= DARK * (1.0 + bound) { Verdict::Skipped } else { Verdict::Fault(FaultKind::OutOfRange) };
+        return if value <= DARK * lifted * (1.0 + bound) {
+            Verdict::Skipped
+        } else {
+            Verdict::Fault(FaultKind::OutOfRange)
+        };
     }
     if exact > MOST {
         return if value >= MOST * (1.0 - bound) { Verdict::Skipped } else { Verdict::Fault(FaultKind::OutOfRange) };
@@ -297,6 +303,15 @@ fn judge(value: f32, exact: f64, bound: f64, finite: bool) -> Verdict {
     let value = value.min(MOST * (1.0 + f64::from(f32::EPSILON)));
     let error = (value - exact).abs() / exact;
     if error.is_nan() { Verdict::Fault(FaultKind::NotFinite) } else { Verdict::Error(error) }
+}
+
+/// One over the larger cosine for `f_r`, and for `f_r (n·l)` what is left of it.
+fn lifted((l, v): (Vec3, Vec3), quantity: Quantity) -> f64 {
+    let lifted = 1.0 / f64::from(l.z.max(v.z));
+    match quantity {
+        Quantity::Eval => lifted,
+        Quantity::EvalCos => (lifted * f64::from(l.z)).max(1.0),
+    }
 }
 
 impl Subject<'_> {
@@ -330,7 +345,7 @@ impl Subject<'_> {
         let bound = (self.bound)(pair.0.map(f64::from), pair.1.map(f64::from));
         self.values(pair, |quantity, value, exact| {
             let finite = self.promises.finite || quantity == Quantity::EvalCos;
-            match judge(value, exact, bound, finite) {
+            match judge(value, exact, bound, finite, lifted(pair, quantity)) {
                 Verdict::Skipped => found.skipped += 1,
                 Verdict::Fault(kind) => {
                     found.fault(kind, || self.case(pair, quantity, (value, exact), f64::NAN, f64::INFINITY));
@@ -384,7 +399,7 @@ impl Subject<'_> {
         self.values(pair, |quantity, value, exact| {
             // A fault that only the search has found is as bad as can be.
             let finite = self.promises.finite || quantity == Quantity::EvalCos;
-            let error = match judge(value, exact, bound, finite) {
+            let error = match judge(value, exact, bound, finite, lifted(pair, quantity)) {
                 Verdict::Error(error) => error,
                 Verdict::Skipped => return,
                 Verdict::Fault(_) => f64::INFINITY,
