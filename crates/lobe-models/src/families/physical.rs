@@ -1,10 +1,12 @@
 //! The microfacet models of 1967 to 1981, as their papers have them.
 
 use super::model;
-use crate::{Bound, Model, Parameter, Reader};
-use lobe::distribution::Ggx;
-use lobe::fresnel::Schlick;
-use lobe::{Alpha, Blinn1977, CookTorrance, Vec3};
+use crate::families::constructors;
+use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader};
+use lobe::distribution::{Beckmann, Distribution, Gaussian, Ggx, Gtr, PhongPower, SmithTable};
+use lobe::fresnel::{Dielectric, Schlick};
+use lobe::masking::{SmithSeparable, VCavity};
+use lobe::{Alpha, AshikhminPremozeShirley, Blinn1977, CookTorrance, Ior, Microfacet, TorranceSparrow, Vec3};
 
 const KS: Parameter = Parameter::reflectance("ks", "the coefficient of the lobe");
 const F0: Parameter = Parameter::reflectance("f0", "the reflectance at normal incidence, in Schlick's form");
@@ -21,7 +23,67 @@ fn beckmann(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     if t > 87.0 { f64::INFINITY } else { (60.0 + 18.0 * t) / 16_777_216.0 }
 }
 
+/// The Gaussian's own bound, with the four ulps that each component of `h` is off by.
+const GAUSSIAN: Bound = Bound::Derived { formula: "2e-5 + 52u L of D", at: gaussian };
+
+fn gaussian(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+    let d = Gaussian::new(Alpha(p.number("c")));
+    depth(&d, l, v).map_or(f64::INFINITY, |depth| Bound::WORST + 52.0 * depth / 16_777_216.0)
+}
+
+/// `|ln(D/D_max)|`, as far as `D` is not 0 in `f32`.
+fn depth(d: &dyn Distribution<f64>, l: Vec3<f64>, v: Vec3<f64>) -> Option<f64> {
+    let (peak, value) = (d.d(Vec3::new(0.0, 0.0, 1.0)), d.d((l + v).normalize()));
+    let depth = (peak / value).ln();
+    (depth < 126.0 * std::f64::consts::LN_2 && value > f64::from(f32::MIN_POSITIVE)).then_some(depth)
+}
+
+/// What the exponential or the power of a distribution multiplies the error of `h` with; nothing for GGX.
+const GENERATED: Bound = Bound::Derived { formula: "2e-5, beckmann and blinn: and 52u L of D", at: generated };
+
+fn generated(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+    let alpha = Alpha(p.number("width"));
+    let depth = match p.choice("distribution") {
+        "beckmann" => depth(&Beckmann::new(alpha), l, v),
+        "blinn" => depth(&PhongPower::new(alpha), l, v),
+        // Far from a sharp peak with a large γ `D` is subnormal, which a large visibility then shows.
+        "gtr" => depth(&Gtr::new(alpha, p.number("gamma")), l, v).map(|_| 0.0),
+        _ => Some(0.0),
+    };
+    depth.map_or(f64::INFINITY, |depth| Bound::WORST + 52.0 * depth / 16_777_216.0)
+}
+
 pub(super) const MODELS: &[Model] = &[
+    model! {
+        name: "torrance-sparrow",
+        summary: "a Gaussian of the facets' angles, V-cavities and exact Fresnel (Torrance and Sparrow 1967)",
+        parameters: &[
+            Parameter::number("c", 1e-4, 1.0, "the width of the Gaussian in radians"),
+            Parameter::number("ior", 1.0, 4.0, "the index of refraction"),
+        ],
+        reciprocal: true,
+        finite: true,
+        bound: GAUSSIAN,
+        build: |p| {
+            let terms: TorranceSparrow<Dielectric<R>, R> =
+                Microfacet::new(Gaussian::new(Alpha(p.number("c"))), VCavity, Dielectric::new(Ior(p.number("ior"))));
+            terms
+        },
+    },
+    Model {
+        name: "ashikhmin-premoze-shirley",
+        summary: "any distribution, with the shadowing that follows from it (Ashikhmin, Premože and Shirley 2000)",
+        parameters: &[
+            Parameter::choice("distribution", &["ggx", "beckmann", "blinn", "gtr"], "the distribution p(h)"),
+            Parameter::number("width", 1e-4, 1.0, "its width α"),
+            Parameter::number("gamma", 0.5, 5.0, "the exponent γ of gtr").or(crate::Value::Number(1.5)),
+            F0,
+        ],
+        reciprocal: true,
+        finite: true,
+        bound: GENERATED,
+        build: constructors!(generator),
+    },
     model! {
         name: "cook-torrance",
         summary: "Beckmann, V-cavities and the factor 1/π (Cook and Torrance 1981)",
@@ -43,3 +105,20 @@ pub(super) const MODELS: &[Model] = &[
         },
     },
 ];
+
+fn generator<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
+    let (alpha, schlick) = (Alpha(p.number("width")), Schlick::new(p.rgb("f0")));
+    /// One type for all: they differ in the distribution alone.
+    fn generate<D, F>(distribution: D, fresnel: F) -> AshikhminPremozeShirley<D, F> {
+        Microfacet::new(distribution, SmithSeparable, fresnel)
+    }
+    match p.choice("distribution") {
+        "beckmann" => Box::new(generate(Beckmann::new(alpha), schlick)),
+        "blinn" => Box::new(generate(SmithTable::<_, R>::new(PhongPower::new(alpha), alpha), schlick)),
+        "gtr" => {
+            let d = Gtr::new(alpha, p.number("gamma"));
+            Box::new(generate(SmithTable::<_, R>::new(d, alpha), schlick))
+        }
+        _ => Box::new(generate(Ggx::new(alpha), schlick)),
+    }
+}

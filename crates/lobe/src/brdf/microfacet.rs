@@ -2,9 +2,9 @@
 
 use super::{Brdf, above_horizon};
 use crate::color::Rgb;
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, Gaussian};
 use crate::fresnel::{Fresnel, Incidence};
-use crate::masking::Masking;
+use crate::masking::{Masking, SmithSeparable, VCavity};
 use crate::number::Real;
 use crate::vector::Vec3;
 
@@ -61,6 +61,22 @@ impl<R: Real, D: Distribution<R>, G: Masking<R, D>, F: Fresnel<R>> Brdf<R> for M
         self.weighted(l, v, l.z)
     }
 }
+
+/// The model of Torrance and Sparrow, "Theory for Off-Specular Reflection from Roughened Surfaces", JOSA 57(9), 1967: a
+/// [`Gaussian`] distribution of the facets' angles and V-cavities, with any Fresnel term.
+///
+/// Their equation 22 gives the reflected radiance as `F G P/(4 (n·v))` for light that arrives per projected area, with
+/// an unknown factor in `P`; here `P` is normalised.
+pub type TorranceSparrow<F, R = f32> = Microfacet<Gaussian<R>, VCavity, F>;
+
+/// The model of Ashikhmin, Premože and Shirley, "A Microfacet-Based BRDF Generator", SIGGRAPH 2000, for any
+/// distribution: `f_r = p(h) ⟨n·h⟩ F/(4 g(l) g(v))`.
+///
+/// `p` is the distribution as a probability density, `⟨n·h⟩` its mean cosine and `g(k) = ∫ max(0, k·h) p(h) dω`. With
+/// `p = D/∫D dω` the mean is `1/∫D dω` and `g(k)` is `(1 + Λ(k)) cos θ_k/∫D dω`: their shadowing is Smith's, light and
+/// viewer apart, with the exact `Λ`. (A test of `lobe-models` integrates it.) For a distribution without a closed
+/// `Λ` take [`SmithTable`](crate::distribution::SmithTable).
+pub type AshikhminPremozeShirley<D, F> = Microfacet<D, SmithSeparable, F>;
 
 /// `h = (l + v)/|l + v|` and `cos θ_d = l·h = |l + v|/2 ≤ 1`, for unit vectors above the horizon; noise or NaN
 /// elsewhere.

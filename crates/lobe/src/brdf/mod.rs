@@ -48,7 +48,7 @@ pub use he::HeTorrance;
 pub use lafortune::Lafortune;
 pub use lambert::Lambert;
 pub use low::{LowMicrofacet, LowSmooth};
-pub use microfacet::Microfacet;
+pub use microfacet::{AshikhminPremozeShirley, Microfacet, TorranceSparrow};
 pub use mirror::{Delta, Mirror};
 pub use phong::Phong;
 pub use power::Shininess;
