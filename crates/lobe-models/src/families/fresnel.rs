@@ -107,10 +107,6 @@ fn conductor<R: Number>(p: &Reader<'_, R>) -> Conductor<R> {
     }
 }
 
-/// What [`excess`] is, in a line.
-pub(super) const FORMULA: &str = "2e-5; f82-tint and lazanyi: and 1e-6 S/F of Schlick's part S; conductor with η, k < 1: \
-                                  and 12u (1 + k²)((cos θ + |w|)/(|w| |1 − (η + ik)²|) + 1/|w|²), w² = (η + ik)² − sin²θ";
-
 /// By how much the relative error of the form may exceed a constant, for the worst of its channels.
 ///
 /// Where a form subtracts, the error is that of what it subtracts from. For a conductor with `η < 1` and little

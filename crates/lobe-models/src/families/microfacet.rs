@@ -2,18 +2,54 @@
 
 use super::constructors;
 use super::fresnel::{self, any_fresnel};
-use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader};
-use lobe::Microfacet;
-use lobe::distribution::{Ggx, SmithLambda};
-use lobe::masking::{SmithCorrelated, SmithSeparable};
+use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader, Value};
+use lobe::distribution::{Beckmann, Distribution, Gaussian, Ggx, Gtr, PhongPower, SmithLambda, SmithTable, StudentT};
+use lobe::masking::{
+    Hammon, Implicit, Kelemen, Masking, Neumann, RationalBeckmann, SchlickGgx, SmithCorrelated, SmithSeparable, VCavity,
+};
+use lobe::{Alpha, Microfacet, Vec3};
+
+/// The distribution by name.
+const DISTRIBUTION: Parameter = Parameter::choice(
+    "distribution",
+    &["ggx", "beckmann", "blinn", "gtr", "gaussian", "student-t"],
+    "the distribution D",
+);
+
+/// The masking by name. Those that know one width only take `√(αx αy)`.
+const MASKING: Parameter = Parameter::choice(
+    "masking",
+    &[
+        "smith-correlated",
+        "smith-separable",
+        "v-cavity",
+        "implicit",
+        "neumann",
+        "kelemen",
+        "hammon",
+        "schlick-ggx",
+        "schlick-ggx-remapped",
+        "schlick-beckmann",
+        "rational-beckmann",
+    ],
+    "the masking G",
+);
+
+const GAMMA: Parameter =
+    Parameter::number("gamma", 0.5, 5.0, "the exponent γ of gtr, 2 for GGX").or(Value::Number(2.0));
+
+const STUDENT_GAMMA: Parameter =
+    Parameter::number("student-gamma", 1.6, 40.0, "the γ of student-t, 2 for GGX").or(Value::Number(3.0));
 
 pub(super) const MODELS: &[Model] = &[Model {
     name: "microfacet",
     summary: "D F G/(4 (n·l)(n·v)) of any terms (Torrance and Sparrow 1967, Walter et al. 2007)",
     parameters: &[
-        Parameter::choice("distribution", &["ggx"], "the distribution D"),
+        DISTRIBUTION,
         Parameter::alpha(),
-        Parameter::choice("masking", &["smith-correlated", "smith-separable"], "the masking G"),
+        GAMMA,
+        STUDENT_GAMMA,
+        MASKING,
         fresnel::FORM,
         fresnel::F0,
         fresnel::F90,
@@ -29,19 +65,114 @@ pub(super) const MODELS: &[Model] = &[Model {
     ],
     reciprocal: true,
     finite: true,
-    bound: Bound::Derived { formula: fresnel::FORMULA, at: |p, l, v| Bound::WORST + fresnel::excess(p, l, v) },
+    bound: Bound::Derived { formula: FORMULA, at: |p, l, v| Bound::WORST + fresnel::excess(p, l, v) + excess(p, l, v) },
     build: constructors!(microfacet),
 }];
 
 fn microfacet<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
     let (x, y) = p.widths("alpha");
-    smith(p, Ggx::anisotropic(x, y))
+    let mean = Alpha((x.0 * y.0).sqrt());
+    match p.choice(DISTRIBUTION.name) {
+        "beckmann" => closed(p, Beckmann::anisotropic(x, y)),
+        "blinn" => tabulated(p, PhongPower::anisotropic(x, y), || PhongPower::new(mean)),
+        "gtr" => {
+            let gamma = p.number(GAMMA.name);
+            tabulated(p, Gtr::anisotropic(x, y, gamma), || Gtr::new(mean, gamma))
+        }
+        "gaussian" => tabulated(p, Gaussian::anisotropic(x, y), || Gaussian::new(mean)),
+        "student-t" => {
+            let gamma = p.number(STUDENT_GAMMA.name);
+            tabulated(p, StudentT::anisotropic(x, y, gamma), || StudentT::new(mean, gamma))
+        }
+        _ => closed(p, Ggx::anisotropic(x, y)),
+    }
 }
 
-fn smith<R: Number, D: SmithLambda<R> + Send + Sync + 'static>(p: &Reader<'_, R>, d: D) -> AnyBrdf<R> {
-    let fresnel = any_fresnel(p);
-    match p.choice("masking") {
-        "smith-separable" => Box::new(Microfacet::new(d, SmithSeparable, fresnel)),
-        _ => Box::new(Microfacet::new(d, SmithCorrelated, fresnel)),
+/// The model with a distribution whose `Λ` has a closed form.
+fn closed<R: Number, D: SmithLambda<R> + Send + Sync + 'static>(p: &Reader<'_, R>, d: D) -> AnyBrdf<R> {
+    match p.choice(MASKING.name) {
+        "smith-correlated" => with(p, d, SmithCorrelated),
+        "smith-separable" => with(p, d, SmithSeparable),
+        _ => any_masking(p, d),
+    }
+}
+
+/// The model with a distribution whose `Λ` is put into a table, if the masking needs it.
+fn tabulated<R, D, I>(p: &Reader<'_, R>, d: D, isotropic: impl Fn() -> I) -> AnyBrdf<R>
+where
+    R: Number,
+    D: Distribution<R> + Send + Sync + 'static,
+    I: Distribution<R>,
+{
+    match p.choice(MASKING.name) {
+        "smith-correlated" | "smith-separable" => {
+            let (x, y) = p.widths("alpha");
+            let table: SmithTable<D, R> = SmithTable::anisotropic(d, x, y, &isotropic());
+            closed(p, table)
+        }
+        _ => any_masking(p, d),
+    }
+}
+
+/// The model with a masking that needs no `Λ`.
+fn any_masking<R: Number, D: Distribution<R> + Send + Sync + 'static>(p: &Reader<'_, R>, d: D) -> AnyBrdf<R> {
+    let (x, y) = p.widths("alpha");
+    let mean = Alpha((x.0 * y.0).sqrt());
+    match p.choice(MASKING.name) {
+        "v-cavity" => with(p, d, VCavity),
+        "neumann" => with(p, d, Neumann),
+        "kelemen" => with(p, d, Kelemen),
+        "hammon" => with(p, d, Hammon::new(mean)),
+        "schlick-ggx" => with(p, d, SchlickGgx::half(mean)),
+        "schlick-ggx-remapped" => with(p, d, SchlickGgx::remapped(mean)),
+        "schlick-beckmann" => with(p, d, SchlickGgx::schlick(mean)),
+        "rational-beckmann" => with(p, d, RationalBeckmann::anisotropic(x, y)),
+        _ => with(p, d, Implicit),
+    }
+}
+
+fn with<R, D, G>(p: &Reader<'_, R>, d: D, g: G) -> AnyBrdf<R>
+where
+    R: Number,
+    D: Distribution<R> + Send + Sync + 'static,
+    G: Masking<R, D> + Send + Sync + 'static,
+{
+    Box::new(Microfacet::new(d, g, any_fresnel(p)))
+}
+
+/// What the two excesses are, in a line.
+const FORMULA: &str = "2e-5; beckmann: and 26u t, t = tan²θ_h/α²; blinn, gaussian: and 52u L of D; student-t: and 26u γ; \
+                       f82-tint, lazanyi: and 1e-6 S/F of Schlick's part S; conductor with η, k < 1: and \
+                       12u (1 + k²)((cos θ + |w|)/(|w| |1 − (η + ik)²|) + 1/|w|²), w² = (η + ik)² − sin²θ";
+
+/// By how much the relative error of `D(h)` may exceed a constant.
+///
+/// With `u = 2⁻²⁴` each component of `h` is off by at most `4u`. Of the squares of two and their quotient that makes
+/// `16u`, which the exponential of Beckmann multiplies with its argument `t`, beside the `10u` of its own; for Blinn and
+/// the Gaussian the azimuth adds as much again; Student's t multiplies it with its exponent.
+fn excess(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+    const U: f64 = 1.0 / 16_777_216.0;
+    let (x, y) = p.widths("alpha");
+    let s = l + v;
+    let h = s * s.length_squared().sqrt().recip();
+    let up = Vec3::new(0.0, 0.0, 1.0);
+    // Below 2⁻¹²⁶ of its peak an exponential or a power is 0, and below 2⁻¹²⁶ `D` itself is subnormal, which a large
+    // visibility then shows.
+    let down = |d: &dyn Distribution<f64>, constant: f64, per_depth: f64| {
+        let (value, depth) = (d.d(h), (d.d(up) / d.d(h)).ln());
+        let known = depth < 87.0 && value > f64::from(f32::MIN_POSITIVE);
+        if known { U * (constant + per_depth * depth) } else { f64::INFINITY }
+    };
+    let gamma = p.number(STUDENT_GAMMA.name);
+    match p.choice(DISTRIBUTION.name) {
+        "beckmann" => {
+            let t = ((h.x / x.0).powi(2) + (h.y / y.0).powi(2)) / (h.z * h.z);
+            down(&Beckmann::anisotropic(x, y), 26.0 * t, 0.0)
+        }
+        "blinn" => down(&PhongPower::anisotropic(x, y), 0.0, 52.0),
+        "gaussian" => down(&Gaussian::anisotropic(x, y), 0.0, 52.0),
+        "gtr" => down(&Gtr::anisotropic(x, y, p.number(GAMMA.name)), 0.0, 0.0),
+        "student-t" => down(&StudentT::anisotropic(x, y, gamma), 26.0 * gamma, 0.0),
+        _ => 0.0,
     }
 }
