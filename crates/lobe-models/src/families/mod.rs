@@ -1,6 +1,7 @@
 //! The models, a file a family.
 
 mod classic;
+mod diffuse;
 mod empirical;
 mod fresnel;
 mod layered;
@@ -11,7 +12,7 @@ use crate::catalogue::Model;
 
 /// All families.
 pub(crate) const ALL: &[&[Model]] =
-    &[classic::MODELS, empirical::MODELS, layered::MODELS, microfacet::MODELS, physical::MODELS];
+    &[classic::MODELS, diffuse::MODELS, empirical::MODELS, layered::MODELS, microfacet::MODELS, physical::MODELS];
 
 /// The constructors of a model in each number type, from the name of a generic function of a [`Reader`](crate::Reader).
 macro_rules! constructors {
