@@ -172,7 +172,12 @@ fn excess(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
         "blinn" => down(&PhongPower::anisotropic(x, y), 0.0, 52.0),
         "gaussian" => down(&Gaussian::anisotropic(x, y), 0.0, 52.0),
         "gtr" => down(&Gtr::anisotropic(x, y, p.number(GAMMA.name)), 0.0, 0.0),
-        "student-t" => down(&StudentT::anisotropic(x, y, gamma), 26.0 * gamma, 0.0),
+        "student-t" => {
+            // Within 1e-34 of the horizon the base of the power, h.z/√c, is subnormal.
+            let c = h.z * h.z + ((h.x / x.0).powi(2) + (h.y / y.0).powi(2)) / (gamma - 1.0);
+            let known = h.z / c.sqrt() > f64::from(f32::MIN_POSITIVE);
+            if known { down(&StudentT::anisotropic(x, y, gamma), 26.0 * gamma, 0.0) } else { f64::INFINITY }
+        }
         _ => 0.0,
     }
 }
