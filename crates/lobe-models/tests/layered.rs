@@ -3,7 +3,7 @@
 use lobe::distribution::Ggx;
 use lobe::fresnel::Schlick;
 use lobe::masking::SmithCorrelated;
-use lobe::{Alpha, Brdf, Clearcoat, Coat, Lambert, MetallicRoughness, Microfacet, Rgb, Vec3};
+use lobe::{Alpha, Brdf, Charlie, Clearcoat, Coat, Lambert, MetallicRoughness, Microfacet, Rgb, SheenLayer, Vec3};
 use lobe_energy::directional_albedo;
 
 type V = Vec3<f64>;
@@ -148,4 +148,27 @@ fn a_coat_keeps_the_energy() {
         }
     }
     assert!(worst < 1.0, "albedo {worst}");
+}
+
+/// The base under a sheen is scaled by `1 − E`, so the scale tells the `E` of the table.
+#[test]
+fn the_sheen_knows_its_albedo() {
+    let white = Lambert::new(Rgb::splat(1.0_f64));
+    for (roughness, cos, allowed) in [
+        (0.14, 0.5, 0.15),
+        (0.25, 0.3, 0.01),
+        (0.42, 0.09, 0.01),
+        (0.42, 0.7, 0.01),
+        (0.75, 0.5, 0.01),
+        (1.0, 0.95, 0.01),
+    ] {
+        let alpha = Alpha(roughness * roughness);
+        let v = Vec3::new((1.0_f64 - cos * cos).sqrt(), 0.0, cos);
+        let sheen = Charlie::new(Rgb::splat(1.0), alpha);
+        let layered = SheenLayer::new(white, Rgb::splat(1.0), alpha);
+        // At l = v both factors are the same.
+        let scale = (layered.eval(v, v).g - sheen.eval(v, v).g) * core::f64::consts::PI;
+        let albedo = directional_albedo(&sheen, v).value.g;
+        assert!((1.0 - scale - albedo).abs() < allowed, "{} {albedo} at {roughness} {cos}", 1.0 - scale);
+    }
 }

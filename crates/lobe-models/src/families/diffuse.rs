@@ -8,8 +8,13 @@ const ALBEDO: Parameter = Parameter::reflectance("albedo", "the albedo ρ");
 
 /// The exponential has its argument's error: `t = (1/2α) ln(1 + cot²θ_h)` has at most twelve roundings.
 fn charlie(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+    of_sheen(p.number("alpha"), l, v)
+}
+
+/// The bound of Charlie's sheen of a width `α`.
+pub(super) fn of_sheen(alpha: f64, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     let s = l + v;
-    let t = (s.z * s.z / (s.x * s.x + s.y * s.y)).ln_1p() / (2.0 * p.number("alpha"));
+    let t = (s.z * s.z / (s.x * s.x + s.y * s.y)).ln_1p() / (2.0 * alpha);
     // Beyond, `D` is below 2⁻¹²⁶ of its peak.
     if t < 80.0 { Bound::WORST + 12.0 * t / 16_777_216.0 } else { f64::INFINITY }
 }

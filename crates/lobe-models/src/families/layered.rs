@@ -5,7 +5,7 @@ use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader, Value};
 use lobe::distribution::Ggx;
 use lobe::fresnel::Schlick;
 use lobe::masking::SmithCorrelated;
-use lobe::{Alpha, Brdf, Clearcoat, Coat, Lambert, MetallicRoughness, Microfacet};
+use lobe::{Alpha, Brdf, Clearcoat, Coat, Lambert, MetallicRoughness, Microfacet, Rgb, SheenLayer, Vec3};
 
 const ROUGHNESS: Parameter = Parameter::number("roughness", 0.01, 1.0, "the perceptual roughness, whose square is α");
 
@@ -27,6 +27,15 @@ pub(super) const MODELS: &[Model] = &[
         finite: true,
         bound: Bound::Constant,
         build: constructors!(gltf_clearcoat),
+    },
+    Model {
+        name: "gltf-sheen",
+        summary: "the same under KHR_materials_sheen, scaled by the sheen's albedo",
+        parameters: GLTF_SHEEN,
+        reciprocal: true,
+        finite: true,
+        bound: Bound::Derived { formula: "2e-5 + that of charlie + 40u base/f", at: sheen_bound },
+        build: constructors!(gltf_sheen),
     },
     Model {
         name: "coat",
@@ -71,6 +80,18 @@ const GLTF_CLEARCOAT: &[Parameter] = &[
     Parameter::number("clearcoat-roughness", 0.01, 1.0, "its perceptual roughness").or(Value::Number(0.01)),
 ];
 
+const GLTF_SHEEN: &[Parameter] = &[
+    GLTF[0],
+    GLTF[1],
+    GLTF[2],
+    GLTF[3],
+    GLTF[4],
+    GLTF[5],
+    GLTF[6],
+    Parameter::reflectance("sheen-color", "the colour of the sheen"),
+    Parameter::number("sheen-roughness", 0.1, 1.0, "its perceptual roughness").or(Value::Number(0.5)),
+];
+
 /// `α = r²`.
 fn alpha<R: Number>(p: &Reader<'_, R>, name: &str) -> Alpha<R> {
     Alpha(p.number(name).squared())
@@ -108,6 +129,26 @@ fn material<R: Number>(p: &Reader<'_, R>, finish: impl Finish<R>) -> AnyBrdf<R> 
     } else {
         finish.finish(plain.with_anisotropy(p.number("anisotropy")))
     }
+}
+
+/// The material under a sheen.
+struct UnderSheen<R>(Rgb<R>, Alpha<R>);
+
+impl<R: Number> Finish<R> for UnderSheen<R> {
+    fn finish<B: Brdf<R> + Send + Sync + 'static>(self, material: B) -> AnyBrdf<R> {
+        Box::new(SheenLayer::new(material, self.0, self.1))
+    }
+}
+
+fn gltf_sheen<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
+    material(p, UnderSheen(p.rgb("sheen-color"), alpha(p, "sheen-roughness")))
+}
+
+/// What the base is scaled with is 1 less something near 1: its error counts as far as the base is seen.
+fn sheen_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+    let (base, layered) = (gltf(p).eval(l, v), gltf_sheen(p).eval(l, v));
+    let seen = [base.r / layered.r, base.g / layered.g, base.b / layered.b].into_iter().fold(0.0, f64::max);
+    Bound::WORST + super::diffuse::of_sheen(alpha(p, "sheen-roughness").0, l, v) + 40.0 * seen / 16_777_216.0
 }
 
 fn gltf<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
