@@ -298,6 +298,9 @@ pub(crate) struct VerifyArgs {
     /// f32 against f64 over a grid of extremes, at random, and where a search finds the worst (the default)
     #[arg(long)]
     pub(crate) extremes: bool,
+    /// The GGX distribution as others write it, each form in f32 against f64
+    #[arg(long, conflicts_with_all = ["extremes", "model", "fast"])]
+    pub(crate) compare: bool,
     /// Try only a small part, in a second or so
     #[arg(long)]
     pub(crate) fast: bool,
@@ -309,4 +312,5 @@ or the bound that the documentation derives for a model; finite, not negative, t
 
 Examples:
   lobe verify --extremes
-  lobe verify --extremes phong --json";
+  lobe verify --extremes phong --json
+  lobe verify --compare";

@@ -11,6 +11,9 @@ use std::fmt::Write as _;
 
 /// Runs the verb.
 pub(crate) fn run(args: &VerifyArgs, quiet: bool, json: bool) -> Result<(), Failure> {
+    if args.compare {
+        return compare(json);
+    }
     let chosen: Vec<&'static Model> =
         models().filter(|model| args.model.as_deref().is_none_or(|name| name == model.name)).collect();
     if chosen.is_empty() {
@@ -48,6 +51,36 @@ fn extremes(chosen: &[&'static Model], effort: Effort, quiet: bool, json: bool) 
     } else {
         Err(Failure::Check(format!("a promise is broken for {}; the table has the input", broken.join(", "))))
     }
+}
+
+/// The table of `--compare`, in Markdown: it stands in the documentation as it is printed.
+fn compare(json: bool) -> Result<(), Failure> {
+    let rows = lobe_verify::comparison::compare();
+    if json {
+        let list: Vec<_> = rows
+            .iter()
+            .map(|row| {
+                let errors: Vec<_> = std::iter::zip(lobe_verify::comparison::WIDTHS, row.errors)
+                    .map(|(alpha, e)| json!({"alpha": alpha, "median": number(e.median), "worst": number(e.worst)}))
+                    .collect();
+                json!({"form": row.name, "equation": row.equation, "errors": errors})
+            })
+            .collect();
+        return output::print(format!("{:#}\n", Value::from(list)).as_bytes());
+    }
+    let mut text = String::from("| `D` of GGX, median / worst |");
+    for alpha in lobe_verify::comparison::WIDTHS {
+        let _ = write!(text, " α = {alpha:?} |");
+    }
+    text += "\n|---|---|---|---|---|\n";
+    for row in rows {
+        let _ = write!(text, "| {}: `{}` |", row.name, row.equation);
+        for e in row.errors {
+            let _ = write!(text, " {:.1e} / {:.1e} |", e.median, e.worst);
+        }
+        text.push('\n');
+    }
+    output::print(text.as_bytes())
 }
 
 const HEAD: &str = "\

@@ -17,7 +17,8 @@ mod histogram;
 mod inputs;
 
 use histogram::Histogram;
-use inputs::{GRAZING, Random};
+use inputs::GRAZING;
+pub(crate) use inputs::{Random, across, tilted, unit};
 use lobe::{Brdf, Rgb, Vec3};
 use lobe_models::{Bound, Lobe, Model};
 use rayon::prelude::*;
