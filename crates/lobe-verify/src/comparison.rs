@@ -33,7 +33,7 @@ pub const FORMS: [Form; 5] = [
         equation: "1/(π α² ((h.x/α)² + (h.y/α)² + h.z²)²)",
         d: |h, alpha| Ggx::new(Alpha(alpha)).d(h),
     },
-    Form { name: "Filament", equation: "k²/π, k = α/(|n × h|² + (α n·h)²)", d: filament },
+    Form { name: "Filament", equation: "k²/π, k = α/((n × h)² + (α n·h)²)", d: filament },
     Form { name: "glTF, appendix B", equation: "α²/(π ((n·h)² (α² − 1) + 1)²)", d: gltf },
     Form { name: "Walter 2007, tan² from n·h", equation: "α²/(π cos⁴ (α² + tan²)²)", d: walter },
     Form { name: "pbrt", equation: "1/(π α² cos⁴ (1 + e)²), e = tan² (cos²φ + sin²φ)/α²", d: pbrt },
