@@ -24,10 +24,13 @@ pub(crate) fn from_argument(argument: &str) -> Result<Material, Failure> {
     if argument.trim_start().starts_with(['{', '[', '"']) {
         return parse(argument, "--brdf");
     }
+    if argument.starts_with(lobe_models::ngan::PREFIX) {
+        return lobe_models::preset(argument).map_err(|error| Failure::Usage(format!("--brdf {argument}: {error}")));
+    }
     if PRESETS.iter().all(|(name, _)| *name != argument) {
         let known: Vec<_> = PRESETS.iter().map(|(name, _)| *name).collect();
         return Err(Failure::Usage(format!(
-            "unknown preset `{argument}` for --brdf; the presets are {}; or give JSON or @FILE",
+            "unknown preset `{argument}` for --brdf; the presets are {}, ngan:MATERIAL/MODEL; or give JSON or @FILE",
             known.join(", ")
         )));
     }

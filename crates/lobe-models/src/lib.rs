@@ -35,6 +35,7 @@ mod families;
 mod json;
 mod material;
 mod names;
+pub mod ngan;
 mod number;
 mod parameter;
 mod presets;

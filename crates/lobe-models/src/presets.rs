@@ -2,6 +2,7 @@
 
 use crate::material::Material;
 use crate::names::nearest;
+use crate::ngan;
 use crate::parameter::Error;
 
 /// The materials of ours that have a name, as the JSON that they stand for.
@@ -33,11 +34,14 @@ pub const PRESETS: &[(&str, &str)] = &[
     ),
 ];
 
-/// The material of that name.
+/// The material of that name; `ngan:MATERIAL/MODEL` is one of the [fits](crate::ngan) to measured ones.
 ///
 /// # Errors
 /// That there is none, with the nearest names.
 pub fn preset(name: &str) -> Result<Material, Error> {
+    if name.starts_with(ngan::PREFIX) {
+        return ngan::preset(name);
+    }
     let Some((name, text)) = PRESETS.iter().find(|(known, _)| *known == name) else {
         let near = nearest(name, PRESETS.iter().map(|(name, _)| *name), 3);
         return Err(Error(format!("unknown preset `{name}`; the nearest are {}", near.join(", "))));
