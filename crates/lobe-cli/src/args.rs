@@ -127,6 +127,16 @@ pub(crate) struct RenderArgs {
     /// 16 bits a channel (.png only)
     #[arg(long)]
     pub(crate) deep: bool,
+    /// Render in this material: a measured one such as dark-blue-paint (`lobe models --materials` lists them), a preset,
+    /// JSON or @FILE. Without a scene, a sphere and a knot of it
+    #[arg(long)]
+    pub(crate) material: Option<String>,
+    /// The model that a measured material is fitted with: cook-torrance, ward, lafortune, …
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) model: Option<String>,
+    /// Spheres of all measured materials, with their names (.png only)
+    #[arg(long, conflicts_with_all = ["material", "scene", "view", "shading", "deep", "height"])]
+    pub(crate) contact_sheet: bool,
     /// How Ks and Ns of the materials become a highlight: blinn-torrance, phong, normalized-phong or
     /// normalized-blinn-phong; as the scene says without it
     #[arg(long, value_name = "MODEL")]
@@ -137,7 +147,10 @@ const RENDER_HELP: &str = "\
 Examples:
   lobe render scene.json -o out.png
   lobe render scene.json --view top --samples 16 -o top.exr
-  lobe render model.obj --shading normalized-phong -o model.png";
+  lobe render model.obj --shading normalized-phong -o model.png
+  lobe render --material dark-blue-paint --model cook-torrance -o paint.png
+  lobe render model.obj --material ggx-gold -o gold.png
+  lobe render --contact-sheet --model ward -o sheet.png";
 
 fn parse_stops(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
@@ -187,12 +200,16 @@ Models: ";
 pub(crate) struct ModelsArgs {
     /// One model, such as microfacet; all of them without it
     pub(crate) model: Option<String>,
+    /// List the measured materials and the models that they are fitted with
+    #[arg(long, conflicts_with = "model")]
+    pub(crate) materials: bool,
 }
 
 const MODELS_HELP: &str = "\
 Examples:
   lobe models
   lobe models microfacet
+  lobe models --materials
   lobe models --json";
 
 /// The number types that are there.

@@ -4,8 +4,10 @@
 //! [`spec::parse`] for BRDFs in JSON, [`eval::parse_line`] for pairs of directions in CSV.
 
 mod args;
+mod contact;
 pub mod error;
 pub mod eval;
+mod letters;
 mod models;
 mod output;
 mod plot;

@@ -3,12 +3,15 @@
 use crate::args::ModelsArgs;
 use crate::error::Failure;
 use crate::output;
-use lobe_models::{Kind, Model, Parameter, model, models, nearest};
+use lobe_models::{Kind, Model, Parameter, model, models, nearest, ngan};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// Runs the verb.
 pub(crate) fn run(args: &ModelsArgs, as_json: bool) -> Result<(), Failure> {
+    if args.materials {
+        return materials(as_json);
+    }
     let chosen: Vec<&Model> = match &args.model {
         None => models().collect(),
         Some(name) => vec![model(name).ok_or_else(|| {
@@ -28,6 +31,34 @@ pub(crate) fn run(args: &ModelsArgs, as_json: bool) -> Result<(), Failure> {
             let _ = writeln!(text, "  {:<16} {:<42} {}", parameter.name, domain(parameter), parameter.doc);
         }
     }
+    output::print(text.as_bytes())
+}
+
+/// The measured materials with their colours, and the models that each is fitted with.
+fn materials(as_json: bool) -> Result<(), Failure> {
+    let fitted: Vec<&str> = ngan::models().filter(|name| model(name).is_some()).collect();
+    if as_json {
+        let fits = ngan::fits().iter().filter(|fit| fitted.contains(&fit.model));
+        let list: Vec<Value> = fits
+            .map(|fit| {
+                let parameters: serde_json::Map<_, _> =
+                    fit.parameters.iter().map(|(name, value)| ((*name).to_owned(), json!(value))).collect();
+                json!({
+                    "name": fit.name(), "material": fit.material, "model": fit.model, "kd": fit.kd, "ks": fit.ks,
+                    "parameters": parameters,
+                })
+            })
+            .collect();
+        return output::print(format!("{:#}\n", Value::from(list)).as_bytes());
+    }
+    let mut text = format!("{:<30} {:<26} cook-torrance: {:<28} parameters\n", "material", "kd", "ks");
+    for fit in ngan::fits().iter().filter(|fit| fit.model == ngan::DEFAULT_MODEL) {
+        let rgb = |[r, g, b]: [f64; 3]| format!("{r} {g} {b}");
+        let parameters: Vec<_> = fit.parameters.iter().map(|(name, value)| format!("{name}={value}")).collect();
+        let (kd, ks) = (rgb(fit.kd), rgb(fit.ks));
+        let _ = writeln!(text, "{:<30} {kd:<26} {ks:<43} {}", fit.material, parameters.join(" "));
+    }
+    let _ = writeln!(text, "\nfitted with {}; name one as ngan:MATERIAL/MODEL", fitted.join(", "));
     output::print(text.as_bytes())
 }
 

@@ -1,10 +1,13 @@
 //! `lobe render`: one view of a scene, as a picture.
 
 use crate::args::RenderArgs;
+use crate::contact;
 use crate::error::Failure;
 use crate::output;
 use crate::progress::Progress;
+use crate::spec;
 use lobe_scene::image::{Depth, Display, MAX_PIXELS, check_ending};
+use lobe_scene::procedural::show_material;
 use lobe_scene::{
     Image, LoadOptions, Renderer, Scene, Settings, ShadingModel, View, check_writable, default_scene, load,
 };
@@ -31,14 +34,28 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
             "a picture of {size} has {pixels} pixels; at most {MAX_PIXELS} are possible"
         )));
     }
+    if args.model.is_some() && args.material.is_none() && !args.contact_sheet {
+        return Err(Failure::Usage("--model is for --material or --contact-sheet; name a material too".to_owned()));
+    }
+    let material =
+        args.material.as_deref().map(|name| spec::material_argument(name, args.model.as_deref())).transpose()?;
     check_writable(&args.output)?;
-    let scene = open(args.scene.as_deref(), args.shading.as_deref())?;
+    if args.contact_sheet {
+        return contact::run(args, png, quiet, json);
+    }
+    let scene = match (&material, &args.scene) {
+        (Some(material), None) => show_material(material)?,
+        _ => open(args.scene.as_deref(), args.shading.as_deref())?,
+    };
     if !quiet {
         for warning in &scene.warnings {
             let _ = writeln!(std::io::stderr(), "warning: {warning}");
         }
     }
-    let view = view(&scene, args.view.as_deref())?;
+    let mut view = view(&scene, args.view.as_deref())?;
+    if let (Some(material), Some(_)) = (material, &args.scene) {
+        view.materials = std::iter::once((View::ALL.to_owned(), material)).collect();
+    }
     let settings = Settings { width: args.width, height: args.height, samples: args.samples, ..Settings::default() };
     let start = Instant::now();
     let renderer = Renderer::new(&scene)?;

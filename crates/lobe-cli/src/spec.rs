@@ -1,7 +1,7 @@
 //! BRDFs from the command line: JSON, `@file` or a name. What the JSON may hold stands in [`lobe_models`].
 
 use crate::error::{Failure, reason};
-use lobe_models::{Material, PRESETS};
+use lobe_models::{Material, PRESETS, ngan};
 use std::io::Read as _;
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub(crate) fn from_argument(argument: &str) -> Result<Material, Failure> {
     if argument.trim_start().starts_with(['{', '[', '"']) {
         return parse(argument, "--brdf");
     }
-    if argument.starts_with(lobe_models::ngan::PREFIX) {
+    if argument.starts_with(ngan::PREFIX) {
         return lobe_models::preset(argument).map_err(|error| Failure::Usage(format!("--brdf {argument}: {error}")));
     }
     if PRESETS.iter().all(|(name, _)| *name != argument) {
@@ -35,6 +35,21 @@ pub(crate) fn from_argument(argument: &str) -> Result<Material, Failure> {
         )));
     }
     lobe_models::preset(argument).map_err(|error| Failure::Usage(error.to_string()))
+}
+
+/// What `--material` and `--model` were given: a measured material, or anything that `--brdf` takes.
+pub(crate) fn material_argument(name: &str, model: Option<&str>) -> Result<Material, Failure> {
+    let plain = name.strip_prefix(ngan::PREFIX).unwrap_or(name);
+    let measured = ngan::materials().any(|known| known == plain);
+    if !measured && model.is_none() && (name.starts_with(['{', '@']) || lobe_models::preset(name).is_ok()) {
+        return from_argument(name);
+    }
+    let (material, written) = plain.split_once('/').map_or((plain, None), |(material, model)| (material, Some(model)));
+    let fit = ngan::fit(material, model.or(written).unwrap_or(ngan::DEFAULT_MODEL));
+    let fit = fit.map_err(|error| {
+        Failure::Usage(format!("--material {name}: {error}; `lobe models --materials` lists them all"))
+    })?;
+    fit.material().map_err(|error| Failure::Usage(error.to_string()))
 }
 
 /// A text of at most a mebibyte; a pipe will do, and `/dev/zero` has an end.

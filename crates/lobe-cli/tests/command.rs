@@ -294,6 +294,59 @@ fn eval_takes_every_model() {
     }
 }
 
+#[test]
+fn measured_materials_are_evaluated_drawn_and_rendered() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = lobe(&["eval", "--brdf", "ngan:pvc/ward", "--number", "f64"], "0,0,1,0,0,1\n");
+    // kd/π + ks/(4π α²) of the table.
+    let fit = lobe_models::ngan::fit("pvc", "ward").expect("a fit");
+    let alpha = fit.parameter("alpha").expect("a width");
+    let expected = (fit.kd[1] + fit.ks[1] / (4.0 * alpha * alpha)) / std::f64::consts::PI;
+    let green: f64 = run.out.split(',').nth(1).expect("three numbers").parse().expect("a number");
+    assert!((green / expected - 1.0).abs() < 1e-12 && run.err.is_empty(), "{green} {expected}");
+
+    let run = lobe_in(folder.path(), &["plot", "--brdf", "ngan:pvc/cook-torrance", "-o", "a.svg", "-q"], b"");
+    assert_eq!((run.err.as_str(), run.code), ("", Some(0)));
+    let size = ["--width", "32", "--height", "18", "--samples", "1", "-q"];
+    let with = |first: &[&'static str]| -> Vec<&'static str> { first.iter().copied().chain(size).collect() };
+    let paint = with(&["render", "--material", "dark-blue-paint", "--model", "ward", "-o", "a.png"]);
+    let run = lobe_in(folder.path(), &paint, b"");
+    assert_eq!((run.err.as_str(), run.code), ("", Some(0)));
+    write_scene(folder.path());
+    for (name, material) in [("b.pfm", "ngan:pvc/ward"), ("c.pfm", "ggx-gold")] {
+        let run = lobe_in(folder.path(), &with(&["render", "s.obj", "--material", material, "-o", name]), b"");
+        assert_eq!((run.err.as_str(), run.code), ("", Some(0)));
+    }
+    let read = |name: &str| fs::read(folder.path().join(name)).expect("a file");
+    assert!(read("b.pfm") != read("c.pfm"), "the material is that of the whole scene");
+
+    let run = lobe(&["render", "--material", "dark-blu-paint", "-o", "a.png"], "");
+    let right = "the nearest are dark-blue-paint, light-brown-fabric";
+    assert!(run.err.starts_with("error: --material dark-blu-paint: unknown material `dark-blu-paint`"), "{}", run.err);
+    assert!(run.err.contains(&right[..30]) && run.code == Some(2), "{}", run.err);
+    let run = lobe(&["plot", "--brdf", "ngan:pvc/phong"], "");
+    assert!(run.err.contains("the materials are not fitted with `phong`, but with "), "{}", run.err);
+    let run = lobe(&["render", "--model", "ward", "-o", "a.png"], "");
+    fails(&run, 2, "--model is for --material or --contact-sheet; name a material too");
+    let list = lobe(&["models", "--materials"], "");
+    assert!(list.out.lines().any(|line| line.starts_with("dark-blue-paint  ")) && list.out.lines().count() == 89);
+}
+
+#[test]
+fn a_contact_sheet_shows_all_materials() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let arguments = ["render", "--contact-sheet", "--width", "640", "--samples", "1", "--json", "-o", "s.png"];
+    let run = lobe_in(folder.path(), &arguments, b"");
+    assert_eq!(run.code, Some(0), "{}", run.err);
+    let facts: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
+    assert_eq!(facts["materials"].as_array().map(Vec::len), Some(86));
+    assert!(fs::read(folder.path().join("s.png")).expect("a file").starts_with(b"\x89PNG"));
+    let run = lobe_in(folder.path(), &["render", "--contact-sheet", "--width", "64", "-o", "s.png"], b"");
+    fails(&run, 2, "s.png: a contact sheet is a .png of at least 640 pixels in a row; the width is 64");
+    let run = lobe_in(folder.path(), &["render", "--contact-sheet", "--model", "phong", "-o", "s.png"], b"");
+    assert!(run.err.starts_with("error: --model phong: the materials are not fitted with `phong`"), "{}", run.err);
+}
+
 /// A floor and a material with a highlight that gains energy.
 fn write_scene(folder: &Path) {
     let obj = "mtllib s.mtl\nusemtl glow\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 4 3 2 1\n";

@@ -210,7 +210,7 @@ pub(crate) fn preset(name: &str) -> Result<Material, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lobe::{Brdf as _, Vec3};
+    use lobe::Vec3;
 
     #[test]
     fn every_line_is_read_and_every_fit_is_a_lobe() {

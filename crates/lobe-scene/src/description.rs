@@ -10,7 +10,7 @@ use crate::scene::{Background, Light, Scene, View};
 use glam::Vec3;
 use lobe::Rgb;
 use serde::Deserialize;
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::io;
 use std::path::Path;
 
@@ -72,11 +72,14 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, Error> {
 ///   ],
 ///   "background": {"bottom": [0.2, 0.2, 0.2], "top": [0.5, 0.6, 0.8]},
 ///   "exposure": 0,
+///   "materials": {"copper": {"lobes": [{"model": "microfacet", "alpha": 0.2, "fresnel": {"conductor": {"metal": "copper"}}}]},
+///                 "*": "ngan:pvc/ward"},
 ///   "views": [{"name": "front"}, {"name": "top", "camera": {"eye": [0, 9, 0], "target": [0, 0, 0], "up": [0, 0, -1]}}]
 /// }
 /// ```
 ///
-/// Only `obj` is required; its path is relative to the JSON file. `background` may be one colour. What a view does not
+/// Only `obj` is required; its path is relative to the JSON file. `materials` replaces those of the model by lobes of
+/// [`lobe_models`], or by a preset; `*` is all that are not named. `background` may be one colour. What a view does not
 /// say is taken from the description itself; without `views` there is one, named `default`. A misspelt word is an
 /// error, not ignored. Colours are linear; intensity is in W·sr⁻¹, irradiance in W·m⁻².
 ///
@@ -142,6 +145,14 @@ pub fn parse(
     let shading = options.shading_model.or(description.shading_model).unwrap_or_default();
     let mut scene = Scene::from_model(model, shading);
     scene.views = description.views();
+    for name in scene.views.iter().flat_map(|view| view.materials.keys()) {
+        if name != View::ALL && scene.materials.iter().all(|material| material.name != *name) {
+            let known: Vec<_> = scene.materials.iter().map(|material| material.name.as_str()).collect();
+            let near = lobe_models::nearest(name, known, 3).join("`, `");
+            let expected = format!("the model has none of that name; the nearest are `{near}`, and `*` is all");
+            return Err(Error::setting(format!("{file}: the name of a material"), format!("`{name}`"), expected));
+        }
+    }
     Ok(scene)
 }
 
@@ -160,6 +171,8 @@ struct Description {
     lights: Option<Vec<LightText>>,
     background: Option<BackgroundText>,
     exposure: Option<Exposure>,
+    #[serde(default)]
+    materials: BTreeMap<String, lobe_models::Material>,
     views: Option<Vec<ViewText>>,
 }
 
@@ -171,6 +184,8 @@ struct ViewText {
     lights: Option<Vec<LightText>>,
     background: Option<BackgroundText>,
     exposure: Option<Exposure>,
+    #[serde(default)]
+    materials: BTreeMap<String, lobe_models::Material>,
 }
 
 impl Description {
@@ -181,6 +196,7 @@ impl Description {
             lights: self.lights.map(lights),
             background: self.background.map_or(View::default().background, Background::from),
             exposure: self.exposure.map_or(0.0, |Exposure(stops)| stops),
+            materials: self.materials,
         };
         match self.views {
             Some(views) if !views.is_empty() => views.into_iter().map(|view| view.over(&general)).collect(),
@@ -198,6 +214,8 @@ impl ViewText {
             lights: self.lights.map(lights).or_else(|| general.lights.clone()),
             background: self.background.map_or(general.background, Background::from),
             exposure: self.exposure.map_or(general.exposure, |Exposure(stops)| stops),
+            // The view's own are taken before those of the description.
+            materials: general.materials.clone().into_iter().chain(self.materials).collect(),
         }
     }
 }
@@ -368,6 +386,39 @@ mod tests {
     }
 
     #[test]
+    fn materials_are_replaced_by_name() -> Result<(), Error> {
+        let scene = read(
+            r#"{"obj": "sub/a.obj", "materials": {"*": "gold"},
+                "views": [{"name": "a"}, {"name": "b", "materials": {"m": {"lobes": [
+                    {"model": "lambert", "albedo": 0.25}, {"model": "microfacet", "alpha": 0.5, "f0": 0.5}]}}}]}"#,
+        )?;
+        let lobes = |view: &str| -> Result<Vec<&'static str>, Error> {
+            let materials = scene.view(view)?.materials_of(&scene.materials);
+            assert_eq!(materials[0].name, "m");
+            Ok(materials[0].surface.lobes().iter().map(|lobe| lobe.model).collect())
+        };
+        assert_eq!(lobes("a")?, ["blinn-phong"]);
+        assert_eq!(lobes("b")?, ["lambert", "microfacet"]);
+        let ambient = scene.view("b")?.materials_of(&scene.materials)[0].ambient.r;
+        assert!(ambient > 0.5 && ambient < 0.8, "{ambient}");
+        for (text, expected) in [
+            (
+                r#"{"obj": "sub/a.obj", "materials": {"n": "gold"}}"#,
+                "dir/s.json: the name of a material is `n`; the model has none of that name; the nearest are `m`, and `*` is all",
+            ),
+            (
+                r#"{"obj": "sub/a.obj", "materials": {"m": {"lobes": [{"model": "phong", "ks": 1, "q": -1}]}}}"#,
+                "dir/s.json:1:86: lobes[0]: `q` is -1.0; a number from 0 to 1000000",
+            ),
+            (r#"{"obj": "sub/a.obj", "materials": {"m": "golt"}}"#, "unknown preset `golt`; the nearest are gold, "),
+        ] {
+            let error = read(text).map(|_| ()).expect_err("wrong").to_string();
+            assert!(error.contains(expected), "{error}");
+        }
+        Ok(())
+    }
+
+    #[test]
     fn views_inherit_and_paths_are_relative() -> Result<(), Error> {
         let scene = read(
             r#"{"obj": "sub/a.obj", "shading_model": "phong", "exposure": 1,
@@ -386,6 +437,7 @@ mod tests {
         assert_eq!(a.lights.as_deref(), Some(&[Light::Ambient(Rgb::splat(1.0))][..]));
         assert_eq!(b.lights.as_ref().map(Vec::len), Some(2));
         assert_eq!(b.background.radiance(Vec3::X).r, 0.5);
+        assert!(a.materials.is_empty());
         let error = scene.view("c").map(|_| ()).expect_err("no such view").to_string();
         assert_eq!(error, "the name of the view is `c`; the views of this scene are `a`, `b`");
         Ok(())

@@ -66,7 +66,7 @@ pub use description::{LoadOptions, load, parse as parse_description};
 pub use error::{Error, Warning};
 pub use files::{check_writable, write_all_atomically, write_atomically};
 pub use image::Image;
-pub use material::{AnyBrdf, LobeRecord, Material, ShadingModel, Surface};
+pub use material::{AnyBrdf, LobeRecord, Material, NamedLobes, ShadingModel, Surface};
 pub use mesh::{MAX_COORDINATE, Mesh, Triangle};
 pub use normals::Smoothing;
 pub use render::{Progress, Renderer, Settings};

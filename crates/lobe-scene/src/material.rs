@@ -79,8 +79,67 @@ pub enum Surface {
     NormalizedPhong(Sum<Lambert, Phong>),
     /// Diffuse and the normalised Blinn-Phong lobe.
     NormalizedBlinnPhong(Sum<Lambert, BlinnPhong>),
+    /// Lobes of the catalogue, by name.
+    Lobes(Arc<NamedLobes>),
     /// Any other BRDF, given from Rust.
     Other(Arc<dyn AnyBrdf>),
+}
+
+/// Lobes of the catalogue, ready to be evaluated.
+///
+/// The model of each is chosen through a pointer at every light: two to three times the time of a [`Surface`] whose
+/// type is known, and any model can be named in a file.
+pub struct NamedLobes {
+    material: lobe_models::Material,
+    brdf: lobe_models::AnyBrdf<f32>,
+}
+
+impl NamedLobes {
+    /// Builds the lobes.
+    #[must_use]
+    pub fn new(material: lobe_models::Material) -> Self {
+        Self { brdf: material.build(), material }
+    }
+
+    /// What they were built from.
+    #[must_use]
+    pub fn material(&self) -> &lobe_models::Material {
+        &self.material
+    }
+
+    pub(crate) fn brdf(&self) -> &dyn Brdf<f32> {
+        &*self.brdf
+    }
+}
+
+/// The directional albedo at 45°, to a percent: enough for an ambient term, and a thousandth of the work of an exact one.
+///
+/// In polar coordinates around the mirror direction, with a logarithmic radius, so that sharp lobes are met too.
+fn reflected_at_45_degrees(brdf: &dyn Brdf<f64>) -> Rgb<f64> {
+    use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
+    const RINGS: u32 = 96;
+    const SECTORS: u32 = 24;
+    const SMALLEST: f64 = 1e-4;
+    let v = lobe::Vec3::new(FRAC_1_SQRT_2, 0.0, FRAC_1_SQRT_2);
+    let pole = lobe::Vec3::new(-FRAC_1_SQRT_2, 0.0, FRAC_1_SQRT_2);
+    let (right, up) = (v, lobe::Vec3::new(0.0, 1.0, 0.0));
+    let step = (PI / SMALLEST).ln() / f64::from(RINGS);
+    let mut sum = Rgb::splat(0.0);
+    for ring in 0..RINGS {
+        let angle = SMALLEST * ((f64::from(ring) + 0.5) * step).exp();
+        for sector in 0..SECTORS {
+            let (sine, cosine) = ((f64::from(sector) + 0.5) * TAU / f64::from(SECTORS)).sin_cos();
+            let l = pole * angle.cos() + (right * cosine + up * sine) * angle.sin();
+            sum = sum + brdf.eval_cos(l, v) * (angle.sin() * angle * step * TAU / f64::from(SECTORS));
+        }
+    }
+    sum
+}
+
+impl fmt::Debug for NamedLobes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("NamedLobes").field(&self.material).finish()
+    }
 }
 
 /// What a surface does with light: the lecture's equation as lobes.
@@ -132,6 +191,16 @@ impl Material {
         Self { name: name.into(), ambient: none, emission: none, dissolve: 1.0, mirror: Mirror::new(none), surface }
     }
 
+    /// A material of lobes of the catalogue. Of a uniform ambient light it sends on what it reflects at 45°.
+    #[must_use]
+    pub fn from_lobes(name: impl Into<String>, lobes: &lobe_models::Material) -> Self {
+        let albedo = reflected_at_45_degrees(&*lobes.build::<f64>());
+        // More than arrives, or a quadrature that ended in nothing, is no ambient term.
+        let channel = |x: f64| if x.is_finite() { x.clamp(0.0, 1.0) as f32 } else { 0.0 };
+        let surface = Surface::Lobes(Arc::new(NamedLobes::new(lobes.clone())));
+        Self { ambient: albedo.map(channel), ..Self::new(name, surface) }
+    }
+
     /// The material of a file as lobes. What is not there by `illum` is left out.
     #[must_use]
     pub fn from_mtl(mtl: &MtlMaterial, model: ShadingModel) -> Self {
@@ -167,6 +236,8 @@ impl Material {
 pub struct LobeRecord {
     /// The kind of lobe, as `lobe eval` names it where it knows it: `lambert`, `phong`, …
     pub model: &'static str,
+    /// Its parameters that are neither, in words: `alpha 0.3, masking smith-correlated`.
+    pub parameters: String,
     /// Its reflectance `kd` or `ks`, linear RGB; `None` for a lobe given from Rust.
     pub reflectance: Option<[f32; 3]>,
     /// Its exponent `q`, if it has one.
@@ -194,10 +265,31 @@ impl LobeRecord {
     ) -> Self {
         Self {
             model,
+            parameters: String::new(),
             reflectance: Some(reflectance.into()),
             exponent: exponent.map(|q| q.0),
             reference: Some(Box::new(reference)),
         }
+    }
+
+    fn named(lobe: &lobe_models::Lobe) -> Self {
+        use lobe_models::Value;
+        let product = |a: [f64; 3]| [0, 1, 2].map(|i| (a[i] * lobe.weight()[i]) as f32);
+        let mut weights = lobe.values().filter(|(parameter, _)| parameter.is_weight());
+        let reflectance = match weights.next() {
+            Some((_, Value::Colour(colour))) => Some(product(colour)),
+            _ if lobe.weight() == [1.0; 3] => None,
+            _ => Some(product([1.0; 3])),
+        };
+        let exponent = match lobe.value("q") {
+            Some(Value::Number(q)) => Some(q as f32),
+            _ => None,
+        };
+        // What is at its default is not worth a line.
+        let shown = lobe.values().filter(|(p, value)| !p.is_weight() && p.name != "q" && p.default != Some(*value));
+        let shown: Vec<_> = shown.map(|(p, value)| format!("{} {}", p.name, value.bare())).collect();
+        let (model, parameters) = (lobe.model().name, shown.join(", "));
+        Self { model, parameters, reflectance, exponent, reference: Some(lobe.build::<f64>()) }
     }
 
     fn lambert(lobe: Lambert) -> Self {
@@ -238,8 +330,10 @@ impl Surface {
             Self::NormalizedBlinnPhong(Sum { a, b }) => {
                 highlight(*a, LobeRecord::new("blinn-phong", b.ks(), Some(b.shininess()), b.map(f64::from)))
             }
+            Self::Lobes(lobes) => lobes.material.lobes.iter().map(LobeRecord::named).collect(),
             Self::Other(_) => {
-                vec![LobeRecord { model: "other", reflectance: None, exponent: None, reference: None }]
+                let parameters = String::new();
+                vec![LobeRecord { model: "other", parameters, reflectance: None, exponent: None, reference: None }]
             }
         }
     }
@@ -260,6 +354,21 @@ mod tests {
             d: 0.5,
             illumination,
             ..MtlMaterial::default()
+        }
+    }
+
+    #[test]
+    fn the_ambient_term_is_the_albedo() {
+        for (lobe, tolerance) in [
+            (r#"{"model": "lambert", "albedo": 0.5}"#, 0.01),
+            (r#"{"model": "microfacet", "alpha": 0.1, "f0": 0.9}"#, 0.01),
+            (r#"{"model": "blinn-phong", "ks": 0.5, "q": 10000}"#, 0.01),
+        ] {
+            let lobes = lobe_models::Material::from_json(&format!("{{\"lobes\": [{lobe}]}}")).expect("right");
+            let v = Vec3::new(std::f64::consts::FRAC_1_SQRT_2, 0.0, std::f64::consts::FRAC_1_SQRT_2);
+            let exact = lobe_energy::directional_albedo(&*lobes.build::<f64>(), v).value.g;
+            let ambient = f64::from(Material::from_lobes("m", &lobes).ambient.g);
+            assert!((ambient / exact - 1.0).abs() < tolerance, "{lobe}: {ambient} {exact}");
         }
     }
 

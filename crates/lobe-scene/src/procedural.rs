@@ -85,3 +85,109 @@ pub fn sphere_field(triangles: u32) -> Result<Scene, Error> {
     };
     Ok(Scene { meshes, materials, views: vec![view], ..Scene::default() })
 }
+
+/// The points and faces of a tube along a trefoil knot that fits into a ball of radius `size`.
+#[must_use]
+pub fn knot(center: Vec3, size: f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    const ALONG: u32 = 480;
+    const AROUND: u32 = 40;
+    /// Half of the thickness of the tube, where the curve reaches out to 1.5.
+    const TUBE: f64 = 0.36;
+    let curve = |t: f64| {
+        let ring = 1.0 + 0.5 * (3.0 * t).cos();
+        glam::DVec3::new(ring * (2.0 * t).cos(), ring * (2.0 * t).sin(), 0.55 * (3.0 * t).sin())
+    };
+    let scale = f64::from(size) / (1.5 + TUBE);
+    let mut points = Vec::new();
+    for step in 0..ALONG {
+        let t = std::f64::consts::TAU * f64::from(step) / f64::from(ALONG);
+        let here = curve(t);
+        let ahead = (curve(t + 1e-4) - curve(t - 1e-4)).normalize();
+        // Away from the middle, at a right angle to the curve: it closes after one round.
+        let side = ahead.cross(here).normalize();
+        let out = side.cross(ahead);
+        for turn in 0..AROUND {
+            let (s, c) = (std::f64::consts::TAU * f64::from(turn) / f64::from(AROUND)).sin_cos();
+            points.push(center + ((here + (out * c + side * s) * TUBE) * scale).as_vec3());
+        }
+    }
+    let at = |step: u32, turn: u32| step % ALONG * AROUND + turn % AROUND;
+    let mut faces = Vec::new();
+    for step in 0..ALONG {
+        for turn in 0..AROUND {
+            let (a, b) = (at(step, turn), at(step, turn + 1));
+            let (c, d) = (at(step + 1, turn + 1), at(step + 1, turn));
+            faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    (points, faces)
+}
+
+/// A sphere and a knot of one material on a grey floor: what a material looks like.
+///
+/// # Errors
+/// None for any material; the meshes are checked like all others.
+pub fn show_material(material: &lobe_models::Material) -> Result<Scene, Error> {
+    let (points, faces) = sphere(Vec3::new(-1.15, 1.0, 0.0), 1.0, 128);
+    let ball = Mesh::smooth(points, &faces, 0, 60.0)?;
+    let (points, faces) = knot(Vec3::new(1.15, 1.05, 0.0), 1.05);
+    let knot = Mesh::smooth(points, &faces, 0, 60.0)?;
+    let side = 40.0;
+    let floor = [[-side, side], [side, side], [side, -side], [-side, -side]].map(|[x, z]| Vec3::new(x, 0.0, z));
+    let floor = Mesh::flat(floor.to_vec(), &[[0, 1, 2], [0, 2, 3]], 1)?;
+    let grey = Material {
+        ambient: Rgb::splat(0.3),
+        ..Material::new("floor", crate::Surface::Diffuse(lobe::Lambert::new(Rgb::splat(0.3))))
+    };
+    let view = View {
+        name: "material".to_owned(),
+        camera: Some(Camera {
+            eye: Vec3::new(0.0, 2.6, 7.6),
+            target: Vec3::new(0.0, 0.95, 0.0),
+            up: Vec3::Y,
+            fov_y_degrees: 24.0,
+        }),
+        lights: Some(show_lights()),
+        background: crate::Background::Gradient { bottom: Rgb::splat(0.25), top: Rgb::new(0.4, 0.43, 0.48) },
+        ..View::default()
+    };
+    let shown = Material::from_lobes(material.name.as_str(), material);
+    Ok(Scene { meshes: vec![ball, knot, floor], materials: vec![shown, grey], views: vec![view], ..Scene::default() })
+}
+
+/// A lamp from the upper left, a weaker one from the right, one from behind, and the sky.
+fn show_lights() -> Vec<Light> {
+    let lamp = |position: [f32; 3], intensity: f32, radius: f32| Light::Point {
+        position: position.into(),
+        intensity: Rgb::splat(intensity),
+        radius,
+    };
+    vec![
+        lamp([-4.0, 6.0, 5.0], 170.0, 0.25),
+        lamp([6.0, 3.5, 4.0], 45.0, 0.3),
+        lamp([1.0, 5.0, -5.0], 70.0, 0.3),
+        Light::Ambient(Rgb::splat(0.16)),
+    ]
+}
+
+/// A sphere alone, lit from the upper left and a little from the right: one field of a contact sheet, which is square.
+///
+/// # Errors
+/// None for any material.
+pub fn swatch(material: &lobe_models::Material) -> Result<Scene, Error> {
+    let (points, faces) = sphere(Vec3::ZERO, 1.0, 64);
+    let ball = Mesh::smooth(points, &faces, 0, 60.0)?;
+    let lamp = |to_light: [f32; 3], irradiance: f32| Light::Directional {
+        to_light: Vec3::from(to_light).normalize(),
+        irradiance: Rgb::splat(irradiance),
+    };
+    let view = View {
+        name: "swatch".to_owned(),
+        camera: Some(Camera { eye: Vec3::new(0.0, 0.0, 6.0), target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 21.0 }),
+        lights: Some(vec![lamp([-0.5, 0.7, 0.75], 2.6), lamp([0.9, 0.15, 0.1], 1.0), Light::Ambient(Rgb::splat(0.12))]),
+        background: crate::Background::Solid(Rgb::splat(0.03)),
+        ..View::default()
+    };
+    let shown = Material::from_lobes(material.name.as_str(), material);
+    Ok(Scene { meshes: vec![ball], materials: vec![shown], views: vec![view], ..Scene::default() })
+}

@@ -13,6 +13,7 @@ use crate::scene::{Background, Light, Scene, View};
 use glam::Vec3;
 use lobe::{AmbientLight, Brdf, DirectionalLight, Frame, Incident, PointLight, Rgb, interpolate_normal};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Called now and then with the rows that are finished and the rows in all, from any thread.
@@ -141,8 +142,9 @@ impl<'a> Renderer<'a> {
         let aspect = settings.width as f32 / settings.height as f32;
         let camera = view.camera_for(self.bounds.0, self.bounds.1, aspect);
         let rays = camera.rays(settings.width, settings.height)?;
-        let pass =
-            Pass { renderer: self, lights: Lights::new(&view.lights_for(&camera))?, background: view.background };
+        let lights = Lights::new(&view.lights_for(&camera))?;
+        let materials = view.materials_of(&self.scene.materials);
+        let pass = Pass { renderer: self, materials, lights, background: view.background };
         let samples = sample_points(settings.samples);
         let weight = 1.0 / settings.samples as f32;
         let rows_done = AtomicU64::new(0);
@@ -212,6 +214,7 @@ impl Lights {
 /// One picture being taken.
 struct Pass<'a> {
     renderer: &'a Renderer<'a>,
+    materials: Cow<'a, [Material]>,
     lights: Lights,
     background: Background,
 }
@@ -337,7 +340,7 @@ impl Pass<'_> {
             return self.background.radiance(direction);
         };
         let triangle = &renderer.triangles[hit.triangle as usize];
-        let material = &renderer.scene.materials[triangle.material as usize];
+        let material = &self.materials[triangle.material as usize];
         let point = Point::new(triangle, &hit, direction);
         if material.dissolve >= 1.0 || depth == 0 {
             return self.surface(&point, material, depth, jitter);
@@ -358,6 +361,7 @@ impl Pass<'_> {
             Surface::Phong(lobes) => own + self.lit(point, lobes, jitter),
             Surface::NormalizedPhong(lobes) => own + self.lit(point, lobes, jitter),
             Surface::NormalizedBlinnPhong(lobes) => own + self.lit(point, lobes, jitter),
+            Surface::Lobes(lobes) => own + self.lit(point, lobes.brdf(), jitter),
             Surface::Other(lobes) => own + self.lit(point, &**lobes, jitter),
         };
         if is_black(material.mirror.ks()) || depth == 0 {
@@ -410,7 +414,7 @@ impl Pass<'_> {
                 return visible;
             };
             let triangle = &renderer.triangles[hit.triangle as usize];
-            visible *= 1.0 - renderer.scene.materials[triangle.material as usize].dissolve;
+            visible *= 1.0 - self.materials[triangle.material as usize].dissolve;
             if visible <= 0.0 {
                 return 0.0;
             }

@@ -7,6 +7,8 @@ use crate::mesh::Mesh;
 use crate::obj::{Model, Part};
 use glam::Vec3;
 use lobe::Rgb;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// Everything that can be drawn. It can be put together by hand, without a file:
 ///
@@ -153,6 +155,9 @@ pub struct View {
     pub background: Background,
     /// Exposure in stops, for [`Display`](crate::image::Display).
     pub exposure: f32,
+    /// What stands in place of the scene's materials, by their names; `*` is all that have no entry of their own. The
+    /// part that is solid ([`Material::dissolve`]) stays.
+    pub materials: BTreeMap<String, lobe_models::Material>,
 }
 
 impl Default for View {
@@ -163,11 +168,34 @@ impl Default for View {
             lights: None,
             background: Background::Solid(Rgb::splat(0.05)),
             exposure: 0.0,
+            materials: BTreeMap::new(),
         }
     }
 }
 
 impl View {
+    /// The name in [`materials`](Self::materials) that stands for all.
+    pub const ALL: &str = "*";
+
+    /// The materials as this view has them.
+    #[must_use]
+    pub fn materials_of<'a>(&self, materials: &'a [Material]) -> Cow<'a, [Material]> {
+        if self.materials.is_empty() {
+            return Cow::Borrowed(materials);
+        }
+        // Once each, however many materials `*` stands for.
+        let built: BTreeMap<&str, Material> =
+            self.materials.iter().map(|(name, lobes)| (name.as_str(), Material::from_lobes(name, lobes))).collect();
+        let replaced = materials.iter().map(|old| {
+            let new = built.get(old.name.as_str()).or_else(|| built.get(Self::ALL));
+            new.map_or_else(
+                || old.clone(),
+                |new| Material { name: old.name.clone(), dissolve: old.dissolve, ..new.clone() },
+            )
+        });
+        replaced.collect()
+    }
+
     /// The camera of this view, or the one that frames a box in a picture of the given width divided by height.
     #[must_use]
     pub fn camera_for(&self, low: Vec3, high: Vec3, aspect: f32) -> Camera {

@@ -32,6 +32,9 @@ pub(crate) struct LobeFacts {
     pub(crate) model: String,
     pub(crate) reflectance: Option<[f32; 3]>,
     pub(crate) exponent: Option<f32>,
+    /// The other parameters, in words.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub(crate) parameters: String,
 }
 
 /// The angles in the table.
@@ -67,7 +70,7 @@ impl Whole {
 
     /// Whether there is something beside the diffuse lobe.
     pub(crate) fn has_highlight(&self) -> bool {
-        self.0.iter().any(|lobe| lobe.exponent.is_some())
+        self.0.iter().any(|lobe| lobe.model != "lambert")
     }
 
     /// The name for a legend: `gold: q=200`.
@@ -130,11 +133,12 @@ fn one(material: &Material) -> MaterialFacts {
             model: model_name(lobe.model).to_owned(),
             reflectance: lobe.reflectance,
             exponent: lobe.exponent,
+            parameters: lobe.parameters.clone(),
         })
         .collect();
     if mirror != Rgb::splat(0.0) {
         let reflectance = Some(material.mirror.ks().into());
-        lobes.push(LobeFacts { model: "mirror".to_owned(), reflectance, exponent: None });
+        lobes.push(LobeFacts { model: "mirror".to_owned(), reflectance, exponent: None, parameters: String::new() });
     }
     // The tolerance is that of the quadrature; coefficients that were rounded to f32 are below it.
     let gains_energy = highest.1 > 1.0 + QUADRATURE_ERROR;

@@ -213,6 +213,9 @@ fn lobe(lobe: &LobeFacts) -> String {
     if let Some(q) = lobe.exponent {
         let _ = write!(text, ", q {q}");
     }
+    if !lobe.parameters.is_empty() {
+        let _ = write!(text, ", {}", escape(&lobe.parameters));
+    }
     text
 }
 
