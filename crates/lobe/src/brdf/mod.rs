@@ -14,6 +14,14 @@
 //! | [`HeTorrance`] | a rough surface by wave optics | to the last bit | at most 1 with `ks = 1` |
 //! | [`LowSmooth`], [`LowMicrofacet`] | the "ABC" lobes | to the last bit | as fitted |
 //! | [`ShiftedGamma`] | facets, every channel fitted apart | to the last bit | as fitted |
+//! | [`Microfacet`] | `D F G/(4 (n·l)(n·v))` of any terms | to the last bit | by its terms: at most 1 with Smith's masking |
+//! | [`CookTorrance`], [`Blinn1977`] | microfacets with the factors of their papers | to the last bit | gain, by `4/π` and without bound |
+//! | [`OrenNayar`], [`OrenNayarQualitative`], [`Eon`] | rough diffuse | to the last bit | lose; the last keeps `ρ = 1` |
+//! | [`BurleyDiffuse`], [`Minnaert`] | diffuse, by eye | to the last bit | gain towards the horizon |
+//! | [`Charlie`] | sheen | to the last bit | gains for a roughness below 0.17 |
+//! | [`MetallicRoughness`] | glTF 2.0 | to the last bit | at most 1 but for grazing light |
+//! | [`Coat`], [`SheenLayer`] | a lobe under another, split both ways | if both are | at most that of the base and the top |
+//! | [`Clearcoat`] | a lobe under glTF's coat | no: up to a factor of 25 | by the viewer alone |
 //! | [`Mirror`] | a delta: direction and weight | | weight `ks` |
 //! | [`Sum`] | the sum of two lobes, written `a + b` | if both are | the sum |
 //! | [`Black`] | no lobe at all | to the last bit | 0 |
