@@ -117,9 +117,14 @@ pub(super) fn excess(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     const U: f64 = 1.0 / 16_777_216.0;
     let sum = l + v;
     let at = Incidence::from_cos((sum.length_squared().sqrt() / 2.0).min(1.0));
+    let f = any_fresnel(p).fresnel(at);
+    // A fifth power of 1 − cos θ is all that a channel with f0 = 0 has near the normal; a sharp peak of D lifts it from
+    // where its factors are subnormal.
+    if [f.r, f.g, f.b].iter().any(|f| (f64::MIN_POSITIVE..1e-30).contains(f)) {
+        return f64::INFINITY;
+    }
     let of_schlick = |a: Rgb<f64>| {
         let schlick = Schlick::new(p.rgb(F0.name)).fresnel(at);
-        let f = any_fresnel(p).fresnel(at);
         largest(
             [(schlick.r.max(a.r), f.r), (schlick.g.max(a.g), f.g), (schlick.b.max(a.b), f.b)]
                 .map(|(s, f)| 1e-6 * s / f),

@@ -37,8 +37,9 @@ impl<R: Real> Minnaert<R> {
     #[inline(always)]
     fn powers(&self, l: Vec3<R>, v: Vec3<R>, exponent: R) -> Rgb<R> {
         // Powers of each, because the product of the cosines leaves the range; and by 2²⁴ less, because for k near 0 that of
-        // the powers leaves it at the horizon where the value, with a small ρ, does not.
-        self.scale * above_horizon(l, v, l.z.pow(exponent).times(1.0 / LARGE) * v.z.pow(self.k.plus(-1.0)))
+        // the powers leaves it at the horizon where the value, with a small ρ, does not. Of the two powers the viewer's
+        // is the one that is not below 1 for k ≤ 1: the other may be so small that 2²⁴ less is subnormal.
+        self.scale * above_horizon(l, v, l.z.pow(exponent) * v.z.pow(self.k.plus(-1.0)).times(1.0 / LARGE))
     }
 }
 
