@@ -142,7 +142,7 @@ where
 
 /// What the two excesses are, in a line.
 const FORMULA: &str = "2e-5; beckmann: and 26u t, t = tan²θ_h/α²; blinn, gaussian: and 52u L of D; student-t: and 26u γ; \
-                       f82-tint, lazanyi: and 1e-6 S/F of Schlick's part S; conductor with η, k < 1: and \
+                       f82-tint, lazanyi: and 32u S/F of Schlick's part S; conductor with η, k < 1: and \
                        12u (1 + k²)((cos θ + |w|)/(|w| |1 − (η + ik)²|) + 1/|w|²), w² = (η + ik)² − sin²θ";
 
 /// By how much the relative error of `D(h)` may exceed a constant.
