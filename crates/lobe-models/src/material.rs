@@ -2,7 +2,7 @@
 
 use crate::catalogue::Lobe;
 use crate::number::{AnyBrdf, Number};
-use crate::parameter::Value;
+use crate::parameter::{Kind, Parameter, Value};
 use lobe::{Black, Brdf, Rgb, Vec3};
 
 /// A sum of lobes with a name.
@@ -27,7 +27,9 @@ impl Material {
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         for (index, lobe) in self.lobes.iter().enumerate() {
-            let parameters = lobe.values().filter(|(parameter, _)| parameter.is_weight());
+            // A coefficient whose domain goes beyond 1 is no reflectance: He's multiplies a Fresnel term that may be 1e-9.
+            let reflectance = |parameter: &Parameter| matches!(parameter.kind, Kind::Colour { max } if parameter.is_weight() && max <= 1.0);
+            let parameters = lobe.values().filter(|(parameter, _)| reflectance(parameter));
             let weights = parameters.map(|(parameter, value)| (parameter.name, value));
             for (name, value) in weights.chain([("weight", Value::Colour(lobe.weight()))]) {
                 if matches!(value, Value::Colour(c) if c.iter().any(|&x| x > 1.0)) {
