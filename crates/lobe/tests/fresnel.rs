@@ -144,11 +144,12 @@ proptest! {
     fn forms_by_f0_have_their_digits(f0 in unit(), f90 in unit(), g in unit(), cos in incidence()) {
         let (at, wide) = angle(cos);
         let cook = CookFresnel::new(grey(f0));
-        close(f64::from(cook.fresnel(at).g), cook.map(f64::from).fresnel(wide).g, 1e-6)?;
+        // The amplitude of these two has up to twelve roundings, which its square doubles: 24u.
+        close(f64::from(cook.fresnel(at).g), cook.map(f64::from).fresnel(wide).g, 1.5e-6)?;
         let schlick = Schlick::with_f90(grey(f0), grey(f90));
         close(f64::from(schlick.fresnel(at).g), schlick.map(f64::from).fresnel(wide).g, 1e-6)?;
         let artistic = Gulbrandsen::new(grey(f0), grey(g));
-        close(f64::from(artistic.fresnel(at).g), artistic.map(f64::from).fresnel(wide).g, 1e-6)?;
+        close(f64::from(artistic.fresnel(at).g), artistic.map(f64::from).fresnel(wide).g, 1.5e-6)?;
     }
 
     #[test]
