@@ -71,6 +71,13 @@ proptest! {
     }
 
     #[test]
+    fn atan2_is_within_two_ulps_below_the_normal_numbers(y in 0..0x0100_0000_u32, x in 0..0x0100_0000_u32, shift in 0..24_u32) {
+        let (y, x) = (f32::from_bits(y >> shift), f32::from_bits(x >> shift));
+        let (value, exact) = (Real::atan2(y, x), Real::atan2(f64::from(y), f64::from(x)));
+        prop_assert!(ulps_between(value, exact) <= 2.0, "atan2({y}, {x}) = {value}, not {exact}");
+    }
+
+    #[test]
     fn log2_1p_div_keeps_its_bound(log2_a in -60.0_f32..126.0, b in 1e-16_f32..1e16) {
         let a = log2_a.exp2();
         prop_assume!(a / b >= f32::MIN_POSITIVE);
