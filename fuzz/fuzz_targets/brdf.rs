@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use lobe::{Brdf, Vec3};
+use lobe::Vec3;
 use lobe_cli::spec;
 
 fuzz_target!(|input: &[u8]| {
@@ -11,9 +11,10 @@ fuzz_target!(|input: &[u8]| {
         Ok(spec) => {
             let _ = (spec.description(), spec.warnings());
             for lobe in &spec.lobes {
-                let (_, colour) = lobe.colour();
-                assert!(colour.iter().all(|c| c.is_finite() && *c >= 0.0), "{lobe:?}");
-                assert!(lobe.exponent().is_none_or(|q| (0.0..=1e6).contains(&q)), "{lobe:?}");
+                for (parameter, value) in lobe.values() {
+                    assert!(parameter.check_weighted(value) == Ok(value), "{lobe:?}");
+                }
+                assert!(lobe.weight().iter().all(|c| c.is_finite() && *c >= 0.0), "{lobe:?}");
             }
             let (l, v) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.48, 0.36, 0.8));
             let wide = spec.build::<f64>().eval(l, v);
