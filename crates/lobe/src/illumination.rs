@@ -36,7 +36,7 @@
 //! # assert!(variant.radiance(n, light.l, v, light.irradiance).r > 0.0);
 //! ```
 
-use crate::brdf::power::{self, Shininess, TWO_POW_62};
+use crate::brdf::power::{self, Shininess};
 use crate::brdf::{Brdf, Lambert, Sum, above_horizon};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -147,7 +147,7 @@ impl<R: Real> BlinnTorrance<R> {
     pub fn reflected(&self, n: Vec3<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
         let n_dot_l = n.dot(l);
         let (zero, q) = (n_dot_l.lift(0.0), self.q.0);
-        let s = (l + v) * q.lift(TWO_POW_62);
+        let s = (l + v) * q.lift(R::SCALE);
         let n_dot_s = n.dot(s);
         let zero_or_nan = (n_dot_s * q).times(0.0);
         let visible = n_dot_l.gt(zero) & n_dot_s.gt(zero);

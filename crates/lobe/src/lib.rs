@@ -20,7 +20,8 @@
 //!
 //! Each model is written once, as it stands in its paper, over the trait [`Real`]. The number type decides what comes
 //! out: `f32` the value, with bits that are the same on every machine; `f64` the reference that its errors are
-//! measured against; a type of yours whatever you need. The default is `f32`: who wants one line of Phong never meets
+//! measured against; `Half`, with the feature of that name, what a shader's `mediump` would make of it; a type of yours
+//! whatever you need. The default is `f32`: who wants one line of Phong never meets
 //! the generics.
 //!
 //! # Conventions
@@ -38,6 +39,7 @@
 //! |---|---|---|
 //! | `std` | yes | the square root from `std`; the same bits as without |
 //! | `glam` | yes | `From` and `Into` for `glam::Vec3`, `Vec3A` and `DVec3` |
+//! | `half` | no | the number type `Half`: every operation rounded to binary16 |
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -70,6 +72,8 @@ pub use brdf::{BurleyDiffuse, Charlie, Eon, Minnaert, OrenNayar, OrenNayarQualit
 pub use color::Rgb;
 pub use frame::{Frame, interpolate_normal};
 pub use light::{AmbientLight, DirectionalLight, Incident, PointLight};
+#[cfg(feature = "half")]
+pub use number::Half;
 pub use number::{Mask, Real};
 pub use parameter::{Alpha, F0, Ior, PerceptualRoughness};
 pub use vector::{Vec3, halfway, mirror, reflect};

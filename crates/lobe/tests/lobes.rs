@@ -299,7 +299,7 @@ fn the_closed_forms() {
     assert_eq!(Phong::new(k, Shininess(0.0)).eval(behind, behind).g, 0.0);
 }
 
-/// What `power::TWO_POW_62` is for: without it the squares of a grazing cosine underflow.
+/// What `Real::SCALE` is for: without it the squares of a grazing cosine underflow.
 #[test]
 fn grazing_needs_the_scale() {
     let (l, v) = (Vec3::new(1.0_f32, 0.0, 1e-20), Vec3::new(0.8_f32, 0.6, 1e-20));

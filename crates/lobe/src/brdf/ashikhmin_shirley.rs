@@ -1,7 +1,7 @@
 //! Ashikhmin-Shirley: `f_r = √((nu+1)(nv+1))/(8π) · (n·h)^e F(l·h)/((l·h) max(n·l, n·v))`,
 //! `e = (nu h.x² + nv h.y²)/(1 − h.z²)`; and the diffuse lobe that goes with it.
 
-use super::power::{TWO_POW_62, half_vector_power};
+use super::power::half_vector_power;
 use super::{Brdf, Shininess, above_horizon, both_above, zero_or_nan};
 use crate::color::Rgb;
 use crate::fresnel::{Fresnel, Incidence, Schlick};
@@ -52,7 +52,8 @@ impl<R: Real> AshikhminShirley<R> {
     /// bitangent.
     #[inline(always)]
     pub fn new(f0: Rgb<R>, nu: Shininess<R>, nv: Shininess<R>) -> Self {
-        let peak = (nu.0.plus(1.0) * nv.0.plus(1.0)).sqrt().times(1.0 / (8.0 * PI));
+        // Two roots: the product leaves the range of binary16 at exponents of 255.
+        let peak = (nu.0.plus(1.0).sqrt() * nv.0.plus(1.0).sqrt()).times(1.0 / (8.0 * PI));
         Self { f0, nu, nv, fresnel: Schlick::new(f0), peak }
     }
 
@@ -89,16 +90,16 @@ impl<R: Real> AshikhminShirley<R> {
     /// `F · factor(peak (n·h)^e, l·h)`.
     #[inline(always)]
     fn lobe(&self, l: Vec3<R>, v: Vec3<R>, factor: impl Fn(R, R) -> R) -> Rgb<R> {
-        let s = (l + v) * l.z.lift(TWO_POW_62);
+        let s = (l + v) * l.z.lift(R::SCALE);
         let (x2, y2, z2) = (s.x.squared(), s.y.squared(), s.z.squared());
         let sin2 = x2 + y2;
         // The mean of the exponents along h. At h = n it is 0/0, and any value will do, since sin² is 0: with the
         // smallest normal number in its place it is 0/tiny.
-        let share = sin2.max(sin2.lift(f32::MIN_POSITIVE as f64));
+        let share = sin2.max(sin2.lift(R::MIN_POSITIVE));
         let exponent = self.nu.0 * (x2 / share) + self.nv.0 * (y2 / share);
         let power = half_vector_power(sin2, z2, exponent, both_above(l, v));
         // |l + v|/2; of rounded unit vectors it may exceed 1.
-        let cos_d = (sin2 + z2).sqrt().times(0.5 / TWO_POW_62).min(sin2.lift(1.0));
+        let cos_d = (sin2 + z2).sqrt().times(0.5 / R::SCALE).min(sin2.lift(1.0));
         let fresnel = self.fresnel.fresnel(Incidence::halfway(l, v, cos_d));
         let value = self.peak * power;
         // A zero is kept: what it would be divided by may be 0 at the horizon.

@@ -65,7 +65,8 @@ pub enum CommonNormalization {}
 impl Normalization for NormalIncidence {
     #[inline(always)]
     fn factor<R: Real>(q: R) -> R {
-        q.plus(2.0) * q.plus(4.0) / (q.times(-0.5).exp2() + q).times(8.0 * PI)
+        // The quotient first, which is near 1: the product of both sums leaves the range of binary16 from q = 253 on.
+        q.plus(2.0) * (q.plus(4.0) / (q.times(-0.5).exp2() + q)).times(1.0 / (8.0 * PI))
     }
 }
 

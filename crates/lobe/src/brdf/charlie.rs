@@ -91,19 +91,19 @@ impl<R: Real> Charlie<R> {
     /// the cosines would bring it back.
     #[inline(always)]
     fn without_cosines(&self, l: Vec3<R>, v: Vec3<R>) -> R {
-        let s = (l + v) * l.z.lift(power::TWO_POW_62);
+        let s = (l + v) * l.z.lift(R::SCALE);
         // With the half vector at the normal the quotient is x/0; D is 0 there to 1e-17 all the same.
         let sin2 = (s.x.squared() + s.y.squared()).max(s.z.squared().times(1e-34));
         // sin^q θ, as the cosine lobe with both exchanged.
         let lobe = power::half_vector_power(s.z.squared(), sin2, self.exponent, both_above(l, v));
-        (self.peak * lobe).times(power::TWO_POW_62) / (self.fit.lambda(l.z) + self.fit.lambda(v.z)).plus(1.0)
+        (self.peak * lobe).times(R::SCALE) / (self.fit.lambda(l.z) + self.fit.lambda(v.z)).plus(1.0)
     }
 }
 
 impl<R: Real> Brdf<R> for Charlie<R> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        let (zero, scale) = (l.z.lift(0.0), l.z.lift(power::TWO_POW_62));
+        let (zero, scale) = (l.z.lift(0.0), l.z.lift(R::SCALE));
         // The product of two cosines of 1e-20 is subnormal. Scaled, the numerator is at most 2¹²⁷.
         let value = self.without_cosines(l, v) * scale / ((l.z * scale) * (v.z * scale));
         self.color * (R::select(both_above(l, v), value, zero) + zero_or_nan(l, v))
@@ -111,7 +111,7 @@ impl<R: Real> Brdf<R> for Charlie<R> {
 
     #[inline(always)]
     fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        let value = self.without_cosines(l, v) * (l.z.lift(1.0 / power::TWO_POW_62) / v.z);
+        let value = self.without_cosines(l, v) * (l.z.lift(1.0 / R::SCALE) / v.z);
         self.color * (R::select(both_above(l, v), value, l.z.lift(0.0)) + zero_or_nan(l, v))
     }
 }

@@ -77,7 +77,7 @@ impl<R: Real> Lafortune<R> {
     fn with_peak(ks: Rgb<R>, c: Vec3<R>, q: Shininess<R>, normalized: bool) -> Self {
         let size = Vec3::new(c.x.abs(), c.y.abs(), c.z.abs());
         // All coefficients 0: shares of 0, not 0/0.
-        let m = size.x.max(size.y).max(size.z).max(c.x.lift(f32::MIN_POSITIVE as f64));
+        let m = size.x.max(size.y).max(size.z).max(c.x.lift(R::MIN_POSITIVE));
         let part = |size: R| (size / m, (m - size) / m);
         let ((ax, bx), (ay, by), (az, bz)) = (part(size.x), part(size.y), part(size.z));
         let factor = if normalized { q.0.plus(2.0).times(1.0 / TAU) } else { m.pow(q.0) };

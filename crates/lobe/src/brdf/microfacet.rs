@@ -87,10 +87,8 @@ pub type AshikhminPremozeShirley<D, F> = Microfacet<D, SmithSeparable, F>;
 #[inline(always)]
 pub(crate) fn unit_halfway<R: Real>(l: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
     // Between opposite directions on the horizon the sum is as small as the cosines; 2⁶² keeps its square normal.
-    let s = (l + v) * l.z.lift(SCALE);
+    let s = (l + v) * l.z.lift(R::SCALE);
     let length = s.length_squared().sqrt();
     // Of rounded unit vectors the sum may be longer than 2.
-    (s * length.recip(), length.times(0.5 / SCALE).min(length.lift(1.0)))
+    (s * length.recip(), length.times(0.5 / R::SCALE).min(length.lift(1.0)))
 }
-
-const SCALE: f64 = (1u64 << 62) as f64;

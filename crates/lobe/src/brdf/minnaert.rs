@@ -17,7 +17,7 @@ use crate::vector::Vec3;
 pub struct Minnaert<R = f32> {
     albedo: Rgb<R>,
     k: R,
-    /// `2²⁴ ρ (k + 1)/(2π)`.
+    /// `2³¹ ρ (k + 1)/(2π)`.
     scale: Rgb<R>,
 }
 
@@ -25,7 +25,7 @@ impl<R: Real> Minnaert<R> {
     /// The law of albedo `ρ` and exponent `k`.
     #[inline(always)]
     pub fn new(albedo: Rgb<R>, k: R) -> Self {
-        Self { albedo, k, scale: albedo * k.plus(1.0).times(0.5 * LARGE * core::f64::consts::FRAC_1_PI) }
+        Self { albedo, k, scale: albedo * k.plus(1.0).times(0.5 * R::ROOT_SCALE * core::f64::consts::FRAC_1_PI) }
     }
 
     /// The same law in another number type.
@@ -36,10 +36,10 @@ impl<R: Real> Minnaert<R> {
 
     #[inline(always)]
     fn powers(&self, l: Vec3<R>, v: Vec3<R>, exponent: R) -> Rgb<R> {
-        // Powers of each, because the product of the cosines leaves the range; and by 2²⁴ less, because for k near 0 that of
+        // Powers of each, because the product of the cosines leaves the range; and by 2³¹ less, because for k near 0 that of
         // the powers leaves it at the horizon where the value, with a small ρ, does not. Of the two powers the viewer's
-        // is the one that is not below 1 for k ≤ 1: the other may be so small that 2²⁴ less is subnormal.
-        self.scale * above_horizon(l, v, l.z.pow(exponent) * v.z.pow(self.k.plus(-1.0)).times(1.0 / LARGE))
+        // is the one that is not below 1 for k ≤ 1: the other may be so small that 2³¹ less is subnormal.
+        self.scale * above_horizon(l, v, l.z.pow(exponent) * v.z.pow(self.k.plus(-1.0)).times(1.0 / R::ROOT_SCALE))
     }
 }
 
@@ -54,6 +54,3 @@ impl<R: Real> Brdf<R> for Minnaert<R> {
         self.powers(l, v, self.k)
     }
 }
-
-/// 2²⁴.
-const LARGE: f64 = 16_777_216.0;

@@ -45,7 +45,9 @@ pub(crate) fn mirror_power<R: Real>(one_minus_cos: R, q: R, mask: R::Mask) -> R 
 /// `(n·h)^q` in the local frame where both directions are above the horizon, else 0 or NaN.
 #[inline(always)]
 pub(crate) fn half_vector_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
-    let s = (l + v) * q.lift(TWO_POW_62);
+    // Grazing cosines down to 1e-20 have squares below the range of f32. Without the scale `(n·h)^q` is wrong in the first
+    // digit there (test `grazing_needs_the_scale`).
+    let s = (l + v) * q.lift(R::SCALE);
     half_vector_power(s.x.squared() + s.y.squared(), s.z.squared(), q, both_above(l, v)) + zero_or_nan(l, v)
 }
 
@@ -56,8 +58,3 @@ pub(crate) fn mirror_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
     let distance2 = (l.x + v.x).squared() + (l.y + v.y).squared() + (l.z - v.z).squared();
     mirror_power(distance2.times(0.5), q, both_above(l, v)) + zero_or_nan(l, v)
 }
-
-/// Grazing cosines down to 1e-20 have squares below the range of `f32`; times 2⁶² they are normal numbers down to the
-/// smallest normal cosine, and the largest sum, 2, squares to 2¹²⁶. A power of two changes no digit.
-/// Without it `(n·h)^q` is wrong in the first digit at cosines of 1e-20 (test `grazing_needs_the_scale`).
-pub(crate) const TWO_POW_62: f64 = (1u64 << 62) as f64;

@@ -13,7 +13,7 @@ use crate::vector::Vec3;
 ///
 /// Domain: `α ∈ [1e-4, 1]`. Error against `f64`, `u = 2⁻²⁴`: `|δD/D| ≤ u (15 + 10 t)`, where the exponential multiplies
 /// the error of its argument; with `L = |ln(D/D_max)|` this is at most `u (41 + 20 L)`, since `t − 2 ln(1 + t)` is above
-/// `t/2 − 1.3`. `D` is 0 below 2⁻¹²⁶ of the peak. `G₁` is within 1e-6.
+/// `t/2 − 1.3`. `D` is 0 where `exp(−t)` is below 2⁻¹²⁶. `G₁` is within 1e-6.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Beckmann<R = f32> {
     widths: Widths<R>,

@@ -65,7 +65,7 @@ impl<R: Real> Distribution<R> for Gaussian<R> {
         let r2 = h.x.squared() + h.y.squared();
         let angle = r2.sqrt().atan2(h.z);
         // δ² (cos²φ/αx² + sin²φ/αy²). At the normal the azimuth is unknown, 0/0, and the angle is 0 anyway.
-        let ratio = self.widths.stretched(h) / r2.max(r2.lift(f32::MIN_POSITIVE as f64));
+        let ratio = self.widths.stretched(h) / r2.max(r2.lift(R::MIN_POSITIVE));
         let t = angle.squared() * ratio;
         self.peak * t.times(-core::f64::consts::LOG2_E).exp2()
     }

@@ -65,7 +65,8 @@ impl<R: Real> Widths<R> {
     #[inline(always)]
     pub(crate) fn new(x: crate::Alpha<R>, y: crate::Alpha<R>) -> Self {
         let inverse = (x.recip(), y.recip());
-        Self { x, y, inverse, peak: (inverse.0 * inverse.1).times(core::f64::consts::FRAC_1_PI) }
+        // 1/π before the second quotient: without it binary16 ends at α = 4e-3, not at 2.2e-3.
+        Self { x, y, inverse, peak: inverse.0.times(core::f64::consts::FRAC_1_PI) * inverse.1 }
     }
 
     /// `(w.x/αx)² + (w.y/αy)²`.

@@ -3,7 +3,6 @@
 use super::{Distribution, Widths};
 use crate::Alpha;
 use crate::Shininess;
-use crate::masking::SCALE;
 use crate::number::Real;
 use crate::vector::Vec3;
 
@@ -67,8 +66,8 @@ impl<R: Real> Distribution<R> for PhongPower<R> {
     fn d(&self, h: Vec3<R>) -> R {
         // The square of a cosine of 1e-20 is below the range of f32, and its logarithm −∞: scaled, then held above 0,
         // where the logarithm of a quotient by 0 would be NaN (test `distributions_reach_the_horizon`).
-        let s = h * h.x.lift(SCALE);
-        let tiny = h.x.lift(f32::MIN_POSITIVE as f64);
+        let s = h * h.x.lift(R::SCALE);
+        let tiny = h.x.lift(R::MIN_POSITIVE);
         let (x2, y2) = (s.x.squared(), s.y.squared());
         let r2 = x2 + y2;
         // At the normal the azimuth is unknown, 0/0, and the logarithm is 0 anyway.

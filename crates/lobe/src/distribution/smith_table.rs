@@ -88,7 +88,7 @@ fn table<R: Real, const N: usize>(distribution: &impl Distribution<R>, width: Al
 fn integrals<R: Real>(distribution: &impl Distribution<R>, width: R, a: f64) -> (R, R) {
     const STEP: f64 = 0.25;
     let (zero, one) = (width.lift(0.0), width.lift(1.0));
-    let tiny = width.lift(f32::MIN_POSITIVE as f64);
+    let tiny = width.lift(R::MIN_POSITIVE);
     let (mut i, mut q) = (zero, zero);
     let (mut last, mut before) = ((zero, zero), (zero, zero));
     for k in -40..=72 {

@@ -30,12 +30,12 @@ pub trait Masking<R: Real, D> {
     ///
     /// The weight is 1 or `n·l`. It is a factor of the numerator before the division, so that with `n·l` the result
     /// stays finite to the last float of a cosine.
+    ///
+    /// Cosines are scaled by [`Real::SCALE`] before they are multiplied with each other or with a small width: at the
+    /// smallest normal cosine the product would be subnormal and lose its digits (test
+    /// `eval_cos_keeps_its_digits_at_the_horizon`).
     fn visibility(&self, distribution: &D, l: Vec3<R>, v: Vec3<R>, h: Vec3<R>, cos_d: R, weight: R) -> R;
 }
-
-/// Cosines are scaled by 2⁶² before they are multiplied with each other or with a small width: at the smallest normal
-/// cosine the product would be subnormal and lose its digits (test `eval_cos_keeps_its_digits_at_the_horizon`).
-pub(crate) const SCALE: f64 = (1u64 << 62) as f64;
 
 /// 2¹⁰⁰, where a visibility ends that has no limit of its own. `D` is at most `1/(π α²) < 2²⁵`, so `D V` stays in the
 /// range of `f32`; without this end it is infinite between opposite directions at the horizon, and of a channel that

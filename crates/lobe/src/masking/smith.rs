@@ -1,6 +1,6 @@
 //! Smith's masking, with the exact `Λ` of the distribution.
 
-use super::{Masking, SCALE};
+use super::Masking;
 use crate::distribution::SmithLambda;
 use crate::number::Real;
 use crate::vector::Vec3;
@@ -15,10 +15,10 @@ impl<R: Real, D: SmithLambda<R>> Masking<R, D> for SmithCorrelated {
     #[inline(always)]
     fn visibility(&self, distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> R {
         let (lambda_l, lambda_v) = (distribution.lambda_cos(l), distribution.lambda_cos(v));
-        let (n_dot_l, n_dot_v) = (l.z.times(SCALE), v.z.times(SCALE));
+        let (n_dot_l, n_dot_v) = (l.z.times(R::SCALE), v.z.times(R::SCALE));
         // The product of the cosines in a symmetric form.
         let denominator = (n_dot_l * lambda_v + n_dot_v * lambda_l) + n_dot_l * v.z;
-        weight.times(0.25 * SCALE) / denominator
+        weight.times(0.25 * R::SCALE) / denominator
     }
 }
 

@@ -11,9 +11,13 @@
 
 mod double;
 pub mod elementary;
+#[cfg(feature = "half")]
+mod half;
 mod single;
 
 pub use elementary::Binary32;
+#[cfg(feature = "half")]
+pub use half::Half;
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -49,6 +53,17 @@ pub trait Real:
 {
     /// What a comparison gives.
     type Mask: Mask;
+
+    /// 2³¹ in `f32`: a power of two whose fourth power is within four binary digits of the end of the range.
+    ///
+    /// Every type that is not `f32` or wider says its own, with [`MIN_POSITIVE`](Self::MIN_POSITIVE).
+    const ROOT_SCALE: f64 = (1u64 << 31) as f64;
+    /// 2⁶² in `f32`, the square of [`ROOT_SCALE`](Self::ROOT_SCALE): what formulas multiply cosines and the sums of two unit
+    /// vectors with before they square them. The largest square is 2¹²⁶, and that of the smallest normal number
+    /// is a normal number again. A power of two changes no digit.
+    const SCALE: f64 = Self::ROOT_SCALE * Self::ROOT_SCALE;
+    /// 2⁻¹²⁶ in `f32`, the smallest normal number: a floor for denominators that are 0 at one direction only.
+    const MIN_POSITIVE: f64 = f32::MIN_POSITIVE as f64;
 
     /// The constant `c`, rounded to this type and in the shape of `self` (whose value does not matter).
     fn lift(self, c: f64) -> Self;
