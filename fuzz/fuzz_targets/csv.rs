@@ -1,4 +1,4 @@
-//! A line of `lobe eval`: two unit vectors, nothing, or an error in one line; the same for both number types.
+//! A line of `lobe eval`: two unit vectors, nothing, or an error in one line; the same for all number types.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -9,7 +9,7 @@ fn check<R: Scalar>(line: &[u8], normalize: bool) {
         Ok(Line::Pair(l, v)) => {
             for direction in [l, v] {
                 let length = direction.map(Into::<f64>::into).length();
-                assert!((length - 1.0).abs() <= 1.1e-3, "{direction:?}");
+                assert!((length - 1.0).abs() <= R::LENGTH_TOLERANCE, "{direction:?}");
             }
         }
         Ok(Line::Skip) => {}
@@ -23,5 +23,6 @@ fuzz_target!(|input: &[u8]| {
     for normalize in [false, true] {
         check::<f32>(line, normalize);
         check::<f64>(line, normalize);
+        check::<lobe::Half>(line, normalize);
     }
 });

@@ -165,10 +165,11 @@ pub(crate) struct EvalArgs {
     /// The BRDF: JSON, @FILE with JSON, or the name of a preset
     #[arg(long, default_value = "red-plastic")]
     pub(crate) brdf: String,
-    /// The number type to read, compute and print in: f32 or f64
+    /// The number type to read, compute and print in: f32, f64, or half, which rounds every operation to binary16
     #[arg(long, default_value = "f32", value_parser = parse_number)]
     pub(crate) number: Number,
-    /// Scale directions to unit length first; without it a length off by more than 0.00001 is an error
+    /// Scale directions to unit length first; without it a length off by more than 0.00001 (0.002 for half) is
+    /// an error
     #[arg(long)]
     pub(crate) normalize: bool,
     /// List the presets and what they are made of
@@ -219,14 +220,17 @@ pub(crate) enum Number {
     F32,
     /// 64-bit floats.
     F64,
+    /// 16-bit floats, emulated.
+    Half,
 }
 
 fn parse_number(text: &str) -> Result<Number, String> {
     match text {
         "f32" => Ok(Number::F32),
         "f64" => Ok(Number::F64),
-        "wide" | "fast" | "coarse" | "half" => Err("planned, but not there yet; use f32 or f64".to_owned()),
-        _ => Err("unknown number type; use f32 or f64".to_owned()),
+        "half" => Ok(Number::Half),
+        "wide" | "fast" | "coarse" => Err("planned, but not there yet; use f32, f64 or half".to_owned()),
+        _ => Err("unknown number type; use f32, f64 or half".to_owned()),
     }
 }
 
@@ -316,8 +320,14 @@ pub(crate) struct VerifyArgs {
     #[arg(long)]
     pub(crate) extremes: bool,
     /// The GGX distribution as others write it, each form in f32 against f64
-    #[arg(long, conflicts_with_all = ["extremes", "model", "fast"])]
+    #[arg(long, conflicts_with_all = ["extremes", "model", "fast", "half", "terms"])]
     pub(crate) compare: bool,
+    /// Which models survive when every operation is rounded to binary16, as in a shader's mediump
+    #[arg(long, conflicts_with_all = ["extremes", "fast", "terms"])]
+    pub(crate) half: bool,
+    /// The terms of microfacet models alone: D, G1 and F in f32 against f64
+    #[arg(long, conflicts_with_all = ["extremes", "model"])]
+    pub(crate) terms: bool,
     /// Try only a small part, in a second or so
     #[arg(long)]
     pub(crate) fast: bool,
@@ -330,4 +340,6 @@ or the bound that the documentation derives for a model; finite, not negative, t
 Examples:
   lobe verify --extremes
   lobe verify --extremes phong --json
-  lobe verify --compare";
+  lobe verify --terms
+  lobe verify --compare
+  lobe verify --half microfacet";

@@ -5,17 +5,12 @@ use crate::error::{Failure, reason};
 use crate::output;
 use crate::progress::Progress;
 use crate::spec;
-use lobe::{Real, Vec3};
+use lobe::{Half, Real, Vec3};
 use lobe_models::{Material, Number as Built};
 use serde_json::json;
 use std::fmt::Debug;
 use std::io::{BufRead, BufReader, BufWriter, IsTerminal as _, Read as _, Write};
-use std::str::FromStr;
 
-/// How far from 1 a length may be: a unit vector of `f32` is off by 1e-7, one printed with six decimals by 1e-6. A lobe
-/// of exponent `q` turns an error of the length into one `q` times as large, so what is off by more has to be
-/// normalised.
-pub const LENGTH_TOLERANCE: f64 = 1e-5;
 /// Six numbers of a thousand digits each would fit; a file without line ends does not fill the memory.
 const MAX_LINE: u64 = 8192;
 
@@ -29,12 +24,55 @@ pub enum Line<R> {
 }
 
 /// The scalar types that lines are read in.
-pub trait Scalar: Real + Built + FromStr + Debug + Into<f64> {}
-impl Scalar for f32 {}
-impl Scalar for f64 {}
+pub trait Scalar: Real + Built + Debug + Into<f64> {
+    /// How far from 1 a length may be: a unit vector of `f32` is off by 1e-7, one printed with six decimals by 1e-6. A
+    /// lobe of exponent `q` turns an error of the length into one `q` times as large, so what is off by more has to be
+    /// normalised.
+    const LENGTH_TOLERANCE: f64 = 1e-5;
+    /// The lengths that can be normalised.
+    const LENGTHS: &str = "1e-37 to 1e38";
+
+    /// The number that a text stands for.
+    fn parse(text: &str) -> Option<Self>;
+    /// The shortest decimal that reads back the same; very small and very large ones have an exponent.
+    fn print(self) -> String;
+}
+
+impl Scalar for f32 {
+    fn parse(text: &str) -> Option<Self> {
+        text.parse().ok()
+    }
+    fn print(self) -> String {
+        format!("{self:?}")
+    }
+}
+
+impl Scalar for f64 {
+    fn parse(text: &str) -> Option<Self> {
+        text.parse().ok()
+    }
+    fn print(self) -> String {
+        format!("{self:?}")
+    }
+}
+
+impl Scalar for Half {
+    // A component of a unit vector is off by 2.4e-4 there, and so is the length.
+    const LENGTH_TOLERANCE: f64 = 2e-3;
+    // Shorter ones have squares of a few digits only, longer ones none at all.
+    const LENGTHS: &str = "0.05 to 200";
+
+    fn parse(text: &str) -> Option<Self> {
+        text.parse::<f64>().ok().map(Self::from)
+    }
+    fn print(self) -> String {
+        // Four or five digits tell numbers of binary16 apart; those of `f32` are more than it has, but read back the same.
+        format!("{:?}", f32::from(self))
+    }
+}
 
 /// Reads a line `lx,ly,lz,vx,vy,vz`. If `normalize`, directions are scaled to unit length; otherwise their length is
-/// within [`LENGTH_TOLERANCE`] of 1.
+/// within [`Scalar::LENGTH_TOLERANCE`] of 1.
 ///
 /// # Errors
 /// What is wrong with the line, and what would be right.
@@ -49,7 +87,7 @@ pub fn parse_line<R: Scalar>(line: &[u8], normalize: bool) -> Result<Line<R>, St
     for field in text.split(',') {
         if let Some(number) = numbers.get_mut(count) {
             let field = field.trim();
-            let value = R::from_str(field).map_err(|_| format!("`{}` is not a number; {RIGHT}", shorten(field)))?;
+            let value = R::parse(field).ok_or_else(|| format!("`{}` is not a number; {RIGHT}", shorten(field)))?;
             let wide: f64 = value.into();
             if !wide.is_finite() {
                 return Err(format!("`{}` is not a finite number; {RIGHT}", shorten(field)));
@@ -81,11 +119,11 @@ fn direction<R: Scalar>(name: &str, d: Vec3<R>, normalize: bool) -> Result<Vec3<
     if normalize {
         let unit = d.normalize();
         return match unit.map(Into::<f64>::into).length() {
-            length if (length - 1.0).abs() <= LENGTH_TOLERANCE => Ok(unit),
-            _ => Err(format!("direction {name} has length {length:?}; a length from 1e-37 to 1e38 can be normalized")),
+            unit_length if (unit_length - 1.0).abs() <= R::LENGTH_TOLERANCE => Ok(unit),
+            _ => Err(format!("direction {name} has length {length}; a length from {} can be normalized", R::LENGTHS)),
         };
     }
-    if (length - 1.0).abs() > LENGTH_TOLERANCE {
+    if (length - 1.0).abs() > R::LENGTH_TOLERANCE {
         return Err(format!("direction {name} has length {length}; give it unit length, or use --normalize"));
     }
     Ok(d)
@@ -112,6 +150,7 @@ pub(crate) fn run(args: &EvalArgs, quiet: bool, json: bool) -> Result<(), Failur
     match args.number {
         Number::F32 => stream::<f32>(&spec, args.normalize, json, &bar),
         Number::F64 => stream::<f64>(&spec, args.normalize, json, &bar),
+        Number::Half => stream::<Half>(&spec, args.normalize, json, &bar),
     }
 }
 
@@ -177,14 +216,13 @@ fn stream<R: Scalar>(spec: &Material, normalize: bool, json: bool, bar: &Progres
     failure.map_or(Ok(()), Err)
 }
 
-/// Three numbers with every digit that they have: `Debug` prints the shortest decimal that reads back the same, and
-/// very small and large ones with an exponent.
+/// Three numbers with every digit that they have.
 fn print_value<R: Scalar>(out: &mut impl Write, f: lobe::Rgb<R>, json: bool) -> std::io::Result<()> {
     if !json {
-        return writeln!(out, "{:?},{:?},{:?}", f.r, f.g, f.b);
+        return writeln!(out, "{},{},{}", f.r.print(), f.g.print(), f.b.print());
     }
     // JSON has no word for an overflow.
-    let [r, g, b] = [f.r, f.g, f.b].map(|x| if x.into().is_finite() { format!("{x:?}") } else { "null".to_owned() });
+    let [r, g, b] = [f.r, f.g, f.b].map(|x| if x.into().is_finite() { x.print() } else { "null".to_owned() });
     writeln!(out, "[{r},{g},{b}]")
 }
 

@@ -5,7 +5,9 @@ use crate::error::Failure;
 use crate::output;
 use crate::progress::Progress;
 use lobe_models::{Bound, Model, models};
+use lobe_verify::comparison::{WIDTHS_IN_HALF, compare_in_half};
 use lobe_verify::extremes::{Case, Effort, Outcome, TARGET_99};
+use lobe_verify::mediump::{BANDS, Band, Row, survey};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -14,12 +16,18 @@ pub(crate) fn run(args: &VerifyArgs, quiet: bool, json: bool) -> Result<(), Fail
     if args.compare {
         return compare(json);
     }
+    if args.terms {
+        return terms(args.fast, json);
+    }
     let chosen: Vec<&'static Model> =
         models().filter(|model| args.model.as_deref().is_none_or(|name| name == model.name)).collect();
     if chosen.is_empty() {
         let known: Vec<_> = models().map(|model| model.name).collect();
         let asked = args.model.as_deref().unwrap_or_default();
         return Err(Failure::Usage(format!("unknown model `{asked}`; the models are {}", known.join(", "))));
+    }
+    if args.half {
+        return mediump(&chosen, args.model.is_none(), quiet, json);
     }
     let effort = if args.fast { Effort::QUICK } else { Effort::FULL };
     extremes(&chosen, effort, quiet, json)
@@ -77,6 +85,122 @@ fn compare(json: bool) -> Result<(), Failure> {
         let _ = write!(text, "| {}: `{}` |", row.name, row.equation);
         for e in row.errors {
             let _ = write!(text, " {:.1e} / {:.1e} |", e.median, e.worst);
+        }
+        text.push('\n');
+    }
+    output::print(text.as_bytes())
+}
+
+/// The table of `--terms`.
+fn terms(fast: bool, json: bool) -> Result<(), Failure> {
+    let terms = lobe_verify::terms::terms(if fast { 20_000 } else { 400_000 });
+    if json {
+        let list: Vec<_> = terms
+            .iter()
+            .map(|term| {
+                json!({
+                    "term": term.name, "compared": term.compared, "bound": term.bound,
+                    "median": number(term.errors.median), "percentile_99": number(term.errors.percentile_99),
+                    "largest": number(term.errors.worst), "worst_part_of_bound": number(term.part),
+                    "worst": term.worst, "outside": term.outside, "holds": term.holds(),
+                })
+            })
+            .collect();
+        output::print(format!("{:#}\n", Value::from(list)).as_bytes())?;
+    } else {
+        let mut text = String::from(
+            "relative error of f32 against f64 of the same inputs\n\
+             term                            values    median      99 %   largest  of bound  verdict  bound\n",
+        );
+        for term in &terms {
+            let verdict = if term.holds() { "holds" } else { "BROKEN" };
+            let e = term.errors;
+            let _ = writeln!(
+                text,
+                "{:<28} {:>9}  {:>8.1e}  {:>8.1e}  {:>8.1e}  {:>8.3}  {verdict:<7}  {}",
+                term.name, term.compared, e.median, e.percentile_99, e.worst, term.part, term.bound
+            );
+        }
+        text += "\nthe worst inputs: parameters, and the direction in the local frame\n";
+        for term in &terms {
+            let _ = writeln!(text, "{}: {}", term.name, term.worst);
+        }
+        output::print(text.as_bytes())?;
+    }
+    let broken: Vec<_> = terms.iter().filter(|term| !term.holds()).map(|term| term.name).collect();
+    if broken.is_empty() { Ok(()) } else { Err(Failure::Check(format!("a bound is broken for {}", broken.join(", ")))) }
+}
+
+/// The tables of `--half`, in Markdown; the forms of GGX only where all models are asked for.
+fn mediump(chosen: &[&'static Model], forms: bool, quiet: bool, json: bool) -> Result<(), Failure> {
+    let bar = Progress::new("models", chosen.len() as u64, quiet);
+    let rows: Vec<_> = chosen
+        .iter()
+        .map(|model| {
+            let rows = survey(model);
+            bar.advance(1);
+            (model, rows)
+        })
+        .collect();
+    drop(bar);
+    let forms = if forms { compare_in_half() } else { Vec::new() };
+    if json {
+        let models: Vec<_> = rows
+            .iter()
+            .flat_map(|(_, rows)| rows)
+            .map(|Row { model, band, tally }| {
+                json!({
+                    "model": model.name,
+                    "alpha": band.map(|band| [band.from, band.to]),
+                    "values": tally.values, "in_range": tally.in_range, "finite": tally.finite,
+                    "within_1_percent": tally.within_1, "within_10_percent": tally.within_10,
+                    "infinite": tally.infinite, "nan": tally.nan, "lost": tally.lost,
+                })
+            })
+            .collect();
+        let forms: Vec<_> = forms
+            .iter()
+            .map(|row| {
+                let within: Vec<_> = std::iter::zip(WIDTHS_IN_HALF, row.within)
+                    .map(|(alpha, (one, ten))| json!({"alpha": alpha, "within_1_percent": one, "within_10_percent": ten}))
+                    .collect();
+                json!({"form": row.form.name, "equation": row.form.equation, "errors": within})
+            })
+            .collect();
+        return output::print(format!("{:#}\n", json!({"models": models, "ggx": forms})).as_bytes());
+    }
+    let mut text = String::from("| finite / within 10 % / within 1 % |");
+    for Band { from, to } in BANDS {
+        let _ = write!(text, " α {to:?} to {from:?} |");
+    }
+    text += "\n|---|---|---|---|---|\n";
+    for (model, rows) in &rows {
+        let _ = write!(text, "| {} |", model.name);
+        let cell = |band: Option<Band>| {
+            let row = rows.iter().find(|row| row.band == band)?;
+            let percent = |count| format!("{:.0}", 100.0 * row.tally.part(count));
+            let parts = [row.tally.finite, row.tally.within_10, row.tally.within_1].map(percent);
+            // Three times the same number is one.
+            Some(if parts.iter().all(|part| *part == parts[0]) { parts[0].clone() } else { parts.join(" / ") })
+        };
+        for (index, band) in BANDS.into_iter().enumerate() {
+            // A model without a width has one row for all of its domain.
+            let whole = if index == 0 { cell(None) } else { None };
+            let _ = write!(text, " {} |", whole.or_else(|| cell(Some(band))).unwrap_or_default());
+        }
+        text.push('\n');
+    }
+    if !forms.is_empty() {
+        text += "\n| `D` of GGX, within 10 % / 1 % |";
+        for alpha in WIDTHS_IN_HALF {
+            let _ = write!(text, " α = {alpha:?} |");
+        }
+        text += "\n|---|---|---|---|---|---|\n";
+    }
+    for row in forms {
+        let _ = write!(text, "| {}: `{}` |", row.form.name, row.form.equation);
+        for (one, ten) in row.within {
+            let _ = write!(text, " {:.1} / {:.1} % |", 100.0 * ten, 100.0 * one);
         }
         text.push('\n');
     }

@@ -74,6 +74,11 @@ fn eval_prints_the_bits_of_the_library() {
         let read: Vec<f64> = line64.split(',').map(|x| x.parse().expect("a number")).collect();
         assert_eq!(read, <[f64; 3]>::from(exact.eval(l.map(wide), v.map(wide))));
     }
+    // Of a direction near the horizon binary16 keeps what the lobe needs.
+    let half = lobe(&["eval", "--brdf", "red-plastic", "--number", "half"], &csv);
+    assert_eq!((half.err.as_str(), half.out.lines().count()), ("", pairs.len()));
+    let first = |out: &str| out.split(',').next().and_then(|x| x.parse::<f32>().ok()).expect("a number");
+    assert!((first(&half.out) / first(&single.out) - 1.0).abs() < 0.005, "{}", half.out);
 }
 
 #[test]
@@ -131,9 +136,9 @@ fn wrong_brdfs_say_what_would_be_right() {
     let run = lobe(&["plot", "--brdf", "gold-plated"], "");
     assert_eq!(run.code, Some(2));
     assert!(run.err.starts_with("error: unknown preset `gold-plated` for --brdf; the presets are paper, red-plastic"));
-    let run = lobe(&["eval", "--number", "half"], "");
+    let run = lobe(&["eval", "--number", "wide"], "");
     assert_eq!(run.code, Some(2));
-    assert!(run.err.contains("planned, but not there yet; use f32 or f64"));
+    assert!(run.err.contains("planned, but not there yet; use f32, f64 or half"));
     let run = lobe(&["eval", "--brdf", r#"{"lobes": [{"model": "lambert", "albedo": 2}]}"#], "");
     assert_eq!(run.code, Some(0), "above 1 is only a warning");
     assert!(run.err.starts_with("warning: "));

@@ -50,6 +50,7 @@ fn lines() {
         for normalize in [false, true] {
             check::<f32>(&path, &content, normalize);
             check::<f64>(&path, &content, normalize);
+            check::<lobe::Half>(&path, &content, normalize);
         }
     }
 }
@@ -59,7 +60,7 @@ fn check<R: eval::Scalar>(path: &str, line: &[u8], normalize: bool) {
         Ok(eval::Line::Pair(l, v)) => {
             for direction in [l, v] {
                 let length = direction.map(Into::<f64>::into).length();
-                assert!((length - 1.0).abs() <= 1.1e-3, "{path}: {direction:?}");
+                assert!((length - 1.0).abs() <= R::LENGTH_TOLERANCE, "{path}: {direction:?}");
             }
         }
         Ok(eval::Line::Skip) => {}

@@ -41,3 +41,24 @@ fn an_unknown_model_is_an_error_of_usage() {
     assert_eq!(run.status.code(), Some(2));
     assert!(text(&run.stderr).contains("the models are lambert, phong"), "{}", text(&run.stderr));
 }
+
+#[test]
+fn the_terms_have_a_table_of_their_own() {
+    let run = lobe(&["verify", "--terms", "--fast"]);
+    let table = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{table}{}", text(&run.stderr));
+    for term in ["D ggx", "D beckmann", "G1 ggx", "F dielectric", "F conductor"] {
+        let row = table.lines().find(|line| line.starts_with(term));
+        assert!(row.is_some_and(|row| row.contains(" holds ")), "{term}: {row:?}");
+    }
+}
+
+#[test]
+fn mediump_is_surveyed() {
+    let run = lobe(&["verify", "--half", "lambert", "--json"]);
+    let list: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");
+    let row = &list["models"][0];
+    assert_eq!(row["model"], "lambert");
+    assert_eq!(row["within_1_percent"], row["in_range"]);
+    assert!(row["in_range"].as_u64() > Some(1000), "{row}");
+}

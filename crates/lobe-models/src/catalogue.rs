@@ -4,7 +4,7 @@ use crate::families;
 use crate::number::{AnyBrdf, Number};
 use crate::parameter::{Error, Parameter, Value};
 use crate::reader::Reader;
-use lobe::{Brdf, Rgb, Vec3};
+use lobe::{Brdf, Half, Rgb, Vec3};
 use std::fmt;
 
 /// A model by name.
@@ -51,6 +51,7 @@ impl Bound {
 pub(crate) struct Constructors {
     pub(crate) f32: fn(&Reader<'_, f32>) -> AnyBrdf<f32>,
     pub(crate) f64: fn(&Reader<'_, f64>) -> AnyBrdf<f64>,
+    pub(crate) half: fn(&Reader<'_, Half>) -> AnyBrdf<Half>,
 }
 
 impl Model {

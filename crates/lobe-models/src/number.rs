@@ -2,7 +2,7 @@
 
 use crate::catalogue::Model;
 use crate::reader::Reader;
-use lobe::{Brdf, Real};
+use lobe::{Brdf, Half, Real};
 
 /// A model of which only the number type is known.
 pub type AnyBrdf<R> = Box<dyn Brdf<R> + Send + Sync>;
@@ -32,5 +32,14 @@ impl Number for f64 {
     }
     fn constructor(model: &Model) -> fn(&Reader<'_, Self>) -> AnyBrdf<Self> {
         model.build.f64
+    }
+}
+
+impl Number for Half {
+    fn from_f64(value: f64) -> Self {
+        Self::from(value)
+    }
+    fn constructor(model: &Model) -> fn(&Reader<'_, Self>) -> AnyBrdf<Self> {
+        model.build.half
     }
 }

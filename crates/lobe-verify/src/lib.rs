@@ -8,6 +8,8 @@
 
 pub mod comparison;
 pub mod extremes;
+pub mod mediump;
 pub mod strategies;
 pub mod sweep;
+pub mod terms;
 pub mod ulp;

@@ -17,7 +17,7 @@ pub(crate) const ALL: &[&[Model]] =
 /// The constructors of a model in each number type, from the name of a generic function of a [`Reader`](crate::Reader).
 macro_rules! constructors {
     ($build:ident) => {
-        crate::catalogue::Constructors { f32: $build, f64: $build }
+        crate::catalogue::Constructors { f32: $build, f64: $build, half: $build }
     };
 }
 pub(crate) use constructors;

@@ -18,7 +18,7 @@ mod inputs;
 
 use histogram::Histogram;
 use inputs::GRAZING;
-pub(crate) use inputs::{Random, across, tilted, unit};
+pub(crate) use inputs::{Random, across, random_lobe, random_value, tilted, unit};
 use lobe::{Brdf, Rgb, Vec3};
 use lobe_models::{Bound, Lobe, Model};
 use rayon::prelude::*;
@@ -495,7 +495,7 @@ pub fn model_extremes(model: &'static Model, effort: Effort, progress: &(dyn Fn(
     let lobes = inputs::grid_lobes(model, effort.lobes);
     // What a small grid leaves of the effort goes into random parameters.
     let mut random = Random::new(seed);
-    let more = (lobes.len()..effort.lobes).filter_map(|_| inputs::random_lobe(model, &mut random));
+    let more = (lobes.len()..effort.lobes).filter_map(|_| random_lobe(model, &mut random));
     let lobes: Vec<_> = lobes.iter().cloned().chain(more).collect();
     // In chunks that are merged in order: the outcome does not depend on the number of threads.
     let parts: Vec<Findings> = lobes
@@ -541,7 +541,7 @@ pub fn model_extremes(model: &'static Model, effort: Effort, progress: &(dyn Fn(
 fn climb(model: &'static Model, start: Option<&Case>, steps: usize, mut random: Random) -> Option<Case> {
     let mut lobe = match start {
         Some(case) => case.lobe.clone()?,
-        None => inputs::random_lobe(model, &mut random)?,
+        None => random_lobe(model, &mut random)?,
     };
     let pair = start.map_or_else(|| inputs::pair(&mut random), |case| (case.l, case.v));
     let mut best = with_subject(&lobe, |subject| subject.worst_at(pair));
