@@ -1,5 +1,8 @@
 //! glTF and coats against the specification's own formulas, written down a second time, and against their energy.
 
+mod common;
+
+use common::directions;
 use lobe::distribution::Ggx;
 use lobe::fresnel::Schlick;
 use lobe::masking::SmithCorrelated;
@@ -7,17 +10,6 @@ use lobe::{Alpha, Brdf, Charlie, Clearcoat, Coat, Lambert, MetallicRoughness, Mi
 use lobe_energy::directional_albedo;
 
 type V = Vec3<f64>;
-
-fn directions() -> Vec<V> {
-    let mut all = Vec::new();
-    for i in 0..6 {
-        for j in 0..7 {
-            let (theta, phi) = (0.02 + 0.25 * f64::from(i), 0.9 * f64::from(j) + 0.1);
-            all.push(Vec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()));
-        }
-    }
-    all
-}
 
 /// Appendix B.2 and B.3 with the extensions, in cosines, as a shader has them.
 struct Specification {

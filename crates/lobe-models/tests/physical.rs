@@ -1,5 +1,8 @@
 //! The microfacet models of the papers against the papers' formulas in cosines, and against what they claim.
 
+mod common;
+
+use common::directions;
 use lobe::distribution::{Beckmann, Distribution, Ggx};
 use lobe::fresnel::{Fresnel, Incidence, Schlick};
 use lobe::masking::{SmithSeparable, VCavity};
@@ -7,17 +10,6 @@ use lobe::{Alpha, Blinn1977, Brdf, CookTorrance, Microfacet, Rgb, Vec3};
 use std::f64::consts::PI;
 
 type V = Vec3<f64>;
-
-fn directions() -> Vec<V> {
-    let mut all = Vec::new();
-    for i in 0..6 {
-        for j in 0..7 {
-            let (theta, phi) = (0.02 + 0.25 * f64::from(i), 0.9 * f64::from(j) + 0.1);
-            all.push(Vec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()));
-        }
-    }
-    all
-}
 
 /// `min(1, 2 (n·h)(n·v)/(v·h), 2 (n·h)(n·l)/(v·h))`.
 fn groove(l: V, v: V, h: V) -> f64 {

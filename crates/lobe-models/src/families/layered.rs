@@ -67,30 +67,27 @@ const GLTF: &[Parameter] = &[
     },
     Parameter { name: "anisotropy", doc: "KHR_materials_anisotropy, the strength", ..UNIT }.or(Value::Number(0.0)),
 ];
-const GLTF_CLEARCOAT: &[Parameter] = &[
-    GLTF[0],
-    GLTF[1],
-    GLTF[2],
-    GLTF[3],
-    GLTF[4],
-    GLTF[5],
-    GLTF[6],
+const GLTF_CLEARCOAT: &[Parameter] = &gltf_and([
     Parameter { name: "clearcoat", doc: "the intensity of the coat", ..UNIT }.or(Value::Number(1.0)),
     // The specification's default is 0, a mirror; that is a delta, and the domain begins at 0.01.
     Parameter::number("clearcoat-roughness", 0.01, 1.0, "its perceptual roughness").or(Value::Number(0.01)),
-];
-
-const GLTF_SHEEN: &[Parameter] = &[
-    GLTF[0],
-    GLTF[1],
-    GLTF[2],
-    GLTF[3],
-    GLTF[4],
-    GLTF[5],
-    GLTF[6],
+]);
+const GLTF_SHEEN: &[Parameter] = &gltf_and([
     Parameter::reflectance("sheen-color", "the colour of the sheen"),
     Parameter::number("sheen-roughness", 0.1, 1.0, "its perceptual roughness").or(Value::Number(0.5)),
-];
+]);
+
+/// The parameters of the material and the two of the layer above it.
+const fn gltf_and([first, second]: [Parameter; 2]) -> [Parameter; GLTF.len() + 2] {
+    let mut all = [first; GLTF.len() + 2];
+    let mut i = 0;
+    while i < GLTF.len() {
+        all[i] = GLTF[i];
+        i += 1;
+    }
+    all[GLTF.len() + 1] = second;
+    all
+}
 
 /// `α = r²`.
 fn alpha<R: Number>(p: &Reader<'_, R>, name: &str) -> Alpha<R> {

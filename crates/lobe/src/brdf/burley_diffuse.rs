@@ -3,6 +3,7 @@
 use super::{Brdf, above_horizon};
 use crate::PerceptualRoughness;
 use crate::color::Rgb;
+use crate::fresnel::fifth_power;
 use crate::number::Real;
 use crate::vector::Vec3;
 
@@ -40,7 +41,7 @@ impl<R: Real> Brdf<R> for BurleyDiffuse<R> {
         let change = (self.roughness.0 * (l + v).length_squared()).times(0.5).plus(-0.5);
         let side = |cos: R| {
             let x = cos.lift(1.0) - cos;
-            (change * (x.squared().squared() * x)).plus(1.0)
+            (change * fifth_power(x)).plus(1.0)
         };
         let value = (side(l.z) * side(v.z)).times(core::f64::consts::FRAC_1_PI);
         self.albedo * above_horizon(l, v, value)

@@ -4,7 +4,7 @@ use super::{Brdf, above_horizon};
 use crate::Alpha;
 use crate::color::Rgb;
 use crate::distribution::{Distribution, Ggx};
-use crate::fresnel::Incidence;
+use crate::fresnel::{Incidence, fifth_power};
 use crate::masking::{Masking, SmithCorrelated, SmithSeparable};
 use crate::number::Real;
 use crate::vector::Vec3;
@@ -104,7 +104,7 @@ impl<R: Real, G> MetallicRoughness<R, G> {
         let (h, cos_d) = super::microfacet::unit_halfway(l, v);
         let incidence = Incidence::halfway(l, v, cos_d);
         let (x, one) = (incidence.one_minus_cos(), cos_d.lift(1.0));
-        let x5 = x.squared().squared() * x;
+        let x5 = fifth_power(x);
         let one_minus_x5 = cos_d * (one + x * (one + x * (one + x * (one + x))));
 
         let white = Rgb::splat(one);
@@ -174,7 +174,7 @@ impl<B, R: Real> Clearcoat<B, R> {
         let one = weight.lift(1.0);
         let incidence = Incidence::of(v);
         let x = incidence.one_minus_cos();
-        let x5 = x.squared().squared() * x;
+        let x5 = fifth_power(x);
         let reflected = self.clearcoat * x5.times(0.96).plus(0.04);
         // 1 − c F, of positive terms.
         let one_minus_x5 = v.z * (one + x * (one + x * (one + x * (one + x))));

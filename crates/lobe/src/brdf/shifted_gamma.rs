@@ -2,7 +2,7 @@
 
 use super::{Brdf, above_horizon};
 use crate::color::Rgb;
-use crate::fresnel::Incidence;
+use crate::fresnel::{Incidence, fifth_power};
 use crate::number::Real;
 use crate::vector::Vec3;
 use core::f64::consts::{FRAC_1_PI, LOG2_E};
@@ -99,7 +99,7 @@ impl<R: Real> ShiftedGamma<R> {
         let visibility = above_horizon(l, v, visibility.min(visibility.lift(END)));
         self.channels.map(|c| {
             let masking = g1(&c, theta_l) * g1(&c, theta_v);
-            let fresnel = (c.f0 - c.f1 * cos_d) + (away.lift(1.0) - c.f0) * (away.squared().squared() * away);
+            let fresnel = (c.f0 - c.f1 * cos_d) + (away.lift(1.0) - c.f0) * fifth_power(away);
             c.ks * fresnel.max(away.lift(0.0)) * (d(&c, tan2) * masking) * visibility
         })
     }

@@ -1,6 +1,6 @@
 //! F82-tint: `F = S(μ) − μ (1 − μ)⁶ S(1/7) (1 − tint)/((1/7)(6/7)⁶)`, `S` Schlick's form, `μ = cos θ`.
 
-use super::{Fresnel, Incidence, at_least_zero, at_most_one, zip};
+use super::{Fresnel, Incidence, at_least_zero, at_most_one, fifth_power, zip};
 use crate::color::Rgb;
 use crate::number::Real;
 
@@ -43,7 +43,7 @@ impl<R: Real> Fresnel<R> for F82Tint<R> {
     #[inline(always)]
     fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R> {
         let x = incidence.one_minus_cos();
-        let x5 = x.squared().squared() * x;
+        let x5 = fifth_power(x);
         let bump = incidence.cos * (x5 * x);
         zip(self.f0, self.b, |f0, b| {
             let schlick = f0 + (f0.lift(1.0) - f0) * x5;

@@ -86,6 +86,12 @@ fn at_most_one<R: Real>(f: R) -> R {
     f.min(f.lift(1.0))
 }
 
+/// `x⁵`, which Schlick's form and all that follow it take of `1 − cos θ`.
+#[inline(always)]
+pub(crate) fn fifth_power<R: Real>(x: R) -> R {
+    x.squared().squared() * x
+}
+
 /// At least 0, for the forms that subtract a term.
 #[inline(always)]
 fn at_least_zero<R: Real>(f: R) -> R {

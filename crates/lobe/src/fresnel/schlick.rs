@@ -1,6 +1,6 @@
 //! Schlick: `F = f0 + (f90 − f0)(1 − cos θ)⁵`.
 
-use super::{Fresnel, Incidence, at_most_one};
+use super::{Fresnel, Incidence, at_most_one, fifth_power};
 use crate::color::Rgb;
 use crate::number::Real;
 
@@ -53,7 +53,7 @@ impl<R: Real> Fresnel<R> for Schlick<R> {
     #[inline(always)]
     fn transmitted(&self, incidence: Incidence<R>) -> Rgb<R> {
         let (x, one) = (incidence.one_minus_cos(), incidence.cos.lift(1.0));
-        let x5 = x.squared().squared() * x;
+        let x5 = fifth_power(x);
         let one_minus_x5 = incidence.cos * (one + x * (one + x * (one + x * (one + x))));
         (Rgb::splat(one) - self.f0) * one_minus_x5 + (Rgb::splat(one) - self.f90) * x5
     }
