@@ -4,6 +4,7 @@ use crate::families;
 use crate::number::{AnyBrdf, Number};
 use crate::parameter::{Error, Parameter, Value};
 use crate::reader::Reader;
+use crate::terms::AnyTerms;
 use lobe::{Brdf, Half, Rgb, Vec3};
 use std::fmt;
 
@@ -52,6 +53,8 @@ pub(crate) struct Constructors {
     pub(crate) f32: fn(&Reader<'_, f32>) -> AnyBrdf<f32>,
     pub(crate) f64: fn(&Reader<'_, f64>) -> AnyBrdf<f64>,
     pub(crate) half: fn(&Reader<'_, Half>) -> AnyBrdf<Half>,
+    /// Of the models that are made of `D`, `G` and `F`.
+    pub(crate) terms: Option<fn(&Reader<'_, f64>) -> AnyTerms>,
 }
 
 impl Model {
@@ -64,6 +67,12 @@ impl Model {
             .iter()
             .find(|parameter| parameter.name == name)
             .ok_or_else(|| Error(format!("model `{}` has no parameter `{name}`; {}", self.name, self.takes())))
+    }
+
+    /// Whether it is made of `D`, `G` and `F`, so that [`Lobe::terms`] has them.
+    #[must_use]
+    pub fn has_terms(&self) -> bool {
+        self.build.terms.is_some()
     }
 
     fn takes(&self) -> String {
@@ -183,6 +192,12 @@ impl Lobe {
         }
         let [r, g, b] = self.weight.map(R::from_f64);
         Box::new(Weighted { lobe, weight: Rgb::new(r, g, b) })
+    }
+
+    /// The terms `D`, `G` and `F` that the lobe is made of, without its weight; `None` for a model that is not made so.
+    #[must_use]
+    pub fn terms(&self) -> Option<AnyTerms> {
+        self.model.build.terms.map(|terms| terms(&Reader::new(self.model.parameters, &self.values)))
     }
 
     /// How far `f32` may be from `f64` of the same inputs, relatively, for these directions; infinite where the bound

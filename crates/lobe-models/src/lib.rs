@@ -40,6 +40,7 @@ mod number;
 mod parameter;
 mod presets;
 mod reader;
+mod terms;
 
 pub use catalogue::{Bound, Lobe, Model, model, models};
 pub use json::{JsonError, MAX_LOBES};
@@ -49,3 +50,4 @@ pub use number::{AnyBrdf, Number};
 pub use parameter::{Error, Kind, Parameter, Value};
 pub use presets::{PRESETS, preset};
 pub use reader::Reader;
+pub use terms::{AnyTerms, Terms};

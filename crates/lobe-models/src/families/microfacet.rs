@@ -2,7 +2,7 @@
 
 use super::constructors;
 use super::fresnel::{self, any_fresnel};
-use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader, Value};
+use crate::{Bound, Model, Number, Parameter, Reader, Terms, Value};
 use lobe::distribution::{Beckmann, Distribution, Gaussian, Ggx, Gtr, PhongPower, SmithLambda, SmithTable, StudentT};
 use lobe::masking::{
     Hammon, Implicit, Kelemen, Masking, Neumann, RationalBeckmann, SchlickGgx, SmithCorrelated, SmithSeparable, VCavity,
@@ -66,10 +66,10 @@ pub(super) const MODELS: &[Model] = &[Model {
     reciprocal: true,
     finite: true,
     bound: Bound::Derived { formula: FORMULA, at: |p, l, v| Bound::WORST + fresnel::excess(p, l, v) + excess(p, l, v) },
-    build: constructors!(microfacet),
+    build: constructors!(facets: microfacet),
 }];
 
-fn microfacet<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
+fn microfacet<R: Number>(p: &Reader<'_, R>) -> Box<dyn Terms<R>> {
     let (x, y) = p.widths("alpha");
     let mean = Alpha((x.0 * y.0).sqrt());
     match p.choice(DISTRIBUTION.name) {
@@ -89,7 +89,7 @@ fn microfacet<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
 }
 
 /// The model with a distribution whose `Λ` has a closed form.
-fn closed<R: Number, D: SmithLambda<R> + Send + Sync + 'static>(p: &Reader<'_, R>, d: D) -> AnyBrdf<R> {
+fn closed<R: Number, D: SmithLambda<R> + Send + Sync + 'static>(p: &Reader<'_, R>, d: D) -> Box<dyn Terms<R>> {
     match p.choice(MASKING.name) {
         "smith-correlated" => with(p, d, SmithCorrelated),
         "smith-separable" => with(p, d, SmithSeparable),
@@ -98,7 +98,7 @@ fn closed<R: Number, D: SmithLambda<R> + Send + Sync + 'static>(p: &Reader<'_, R
 }
 
 /// The model with a distribution whose `Λ` is put into a table, if the masking needs it.
-fn tabulated<R, D, I>(p: &Reader<'_, R>, d: D, isotropic: impl Fn() -> I) -> AnyBrdf<R>
+fn tabulated<R, D, I>(p: &Reader<'_, R>, d: D, isotropic: impl Fn() -> I) -> Box<dyn Terms<R>>
 where
     R: Number,
     D: Distribution<R> + Send + Sync + 'static,
@@ -115,7 +115,7 @@ where
 }
 
 /// The model with a masking that needs no `Λ`.
-fn any_masking<R: Number, D: Distribution<R> + Send + Sync + 'static>(p: &Reader<'_, R>, d: D) -> AnyBrdf<R> {
+fn any_masking<R: Number, D: Distribution<R> + Send + Sync + 'static>(p: &Reader<'_, R>, d: D) -> Box<dyn Terms<R>> {
     let (x, y) = p.widths("alpha");
     let mean = Alpha((x.0 * y.0).sqrt());
     match p.choice(MASKING.name) {
@@ -131,7 +131,7 @@ fn any_masking<R: Number, D: Distribution<R> + Send + Sync + 'static>(p: &Reader
     }
 }
 
-fn with<R, D, G>(p: &Reader<'_, R>, d: D, g: G) -> AnyBrdf<R>
+fn with<R, D, G>(p: &Reader<'_, R>, d: D, g: G) -> Box<dyn Terms<R>>
 where
     R: Number,
     D: Distribution<R> + Send + Sync + 'static,

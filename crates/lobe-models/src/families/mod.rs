@@ -14,10 +14,22 @@ use crate::catalogue::Model;
 pub(crate) const ALL: &[&[Model]] =
     &[classic::MODELS, diffuse::MODELS, empirical::MODELS, layered::MODELS, microfacet::MODELS, physical::MODELS];
 
-/// The constructors of a model in each number type, from the name of a generic function of a [`Reader`](crate::Reader).
+/// The constructors of a model in each number type, from the name of a generic function of a [`Reader`](crate::Reader);
+/// with `facets`, from that of a function that gives a lobe with its terms.
 macro_rules! constructors {
     ($build:ident) => {
-        crate::catalogue::Constructors { f32: $build, f64: $build, half: $build }
+        crate::catalogue::Constructors { f32: $build, f64: $build, half: $build, terms: None }
+    };
+    (facets: $facets:ident) => {
+        crate::catalogue::Constructors {
+            f32: |p| $facets(p).into_brdf(),
+            f64: |p| $facets(p).into_brdf(),
+            half: |p| $facets(p).into_brdf(),
+            terms: Some(|p| $facets(p)),
+        }
+    };
+    ($build:ident, terms: $terms:ident) => {
+        crate::catalogue::Constructors { f32: $build, f64: $build, half: $build, terms: Some($terms) }
     };
 }
 pub(crate) use constructors;

@@ -1,8 +1,7 @@
 //! The microfacet models of 1967 to 1981, as their papers have them.
 
-use super::model;
 use crate::families::constructors;
-use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader};
+use crate::{AnyBrdf, AnyTerms, Bound, Model, Number, Parameter, Reader, Terms};
 use lobe::distribution::{Beckmann, Distribution, Gaussian, Ggx, Gtr, PhongPower, SmithTable};
 use lobe::fresnel::{Dielectric, Schlick};
 use lobe::masking::{SmithSeparable, VCavity};
@@ -54,7 +53,7 @@ fn generated(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
 }
 
 pub(super) const MODELS: &[Model] = &[
-    model! {
+    Model {
         name: "torrance-sparrow",
         summary: "a Gaussian of the facets' angles, V-cavities and exact Fresnel (Torrance and Sparrow 1967)",
         parameters: &[
@@ -64,11 +63,7 @@ pub(super) const MODELS: &[Model] = &[
         reciprocal: true,
         finite: true,
         bound: GAUSSIAN,
-        build: |p| {
-            let terms: TorranceSparrow<Dielectric<R>, R> =
-                Microfacet::new(Gaussian::new(Alpha(p.number("c"))), VCavity, Dielectric::new(Ior(p.number("ior"))));
-            terms
-        },
+        build: constructors!(facets: torrance_sparrow),
     },
     Model {
         name: "ashikhmin-premoze-shirley",
@@ -82,31 +77,59 @@ pub(super) const MODELS: &[Model] = &[
         reciprocal: true,
         finite: true,
         bound: GENERATED,
-        build: constructors!(generator),
+        build: constructors!(facets: generator),
     },
-    model! {
+    Model {
         name: "cook-torrance",
         summary: "Beckmann, V-cavities and the factor 1/π (Cook and Torrance 1981)",
         parameters: &[KS, Parameter::number("m", 1e-4, 1.0, "the root mean square slope"), F0],
         reciprocal: true,
         finite: true,
         bound: BECKMANN,
-        build: |p| CookTorrance::new(p.rgb("ks"), Alpha(p.number("m")), Schlick::new(p.rgb("f0"))),
+        build: constructors!(cook_torrance, terms: cook_torrance_terms),
     },
-    model! {
+    Model {
         name: "blinn-1977",
         summary: "Trowbridge-Reitz with a peak of 1, and V-cavities (Blinn 1977): gains energy",
         parameters: &[KS, Parameter::number("c", 1e-4, 1.0, "the width c₃ of the distribution"), F0],
         reciprocal: true,
         finite: true,
         bound: Bound::Constant,
-        build: |p| {
-            Blinn1977::new(p.rgb("ks"), Ggx::new(Alpha(p.number("c"))), Schlick::new(p.rgb("f0")))
-        },
+        build: constructors!(blinn, terms: blinn_terms),
     },
 ];
 
-fn generator<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
+fn torrance_sparrow<R: Number>(p: &Reader<'_, R>) -> Box<dyn Terms<R>> {
+    let terms: TorranceSparrow<Dielectric<R>, R> =
+        Microfacet::new(Gaussian::new(Alpha(p.number("c"))), VCavity, Dielectric::new(Ior(p.number("ior"))));
+    Box::new(terms)
+}
+
+fn cook_torrance<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
+    Box::new(cook_torrance_lobe(p))
+}
+
+fn cook_torrance_terms(p: &Reader<'_, f64>) -> AnyTerms {
+    Box::new(cook_torrance_lobe(p).modern())
+}
+
+fn cook_torrance_lobe<R: Number>(p: &Reader<'_, R>) -> CookTorrance<Schlick<R>, R> {
+    CookTorrance::new(p.rgb("ks"), Alpha(p.number("m")), Schlick::new(p.rgb("f0")))
+}
+
+fn blinn<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
+    Box::new(blinn_lobe(p))
+}
+
+fn blinn_terms(p: &Reader<'_, f64>) -> AnyTerms {
+    Box::new(blinn_lobe(p).modern())
+}
+
+fn blinn_lobe<R: Number>(p: &Reader<'_, R>) -> Blinn1977<Ggx<R>, Schlick<R>, R> {
+    Blinn1977::new(p.rgb("ks"), Ggx::new(Alpha(p.number("c"))), Schlick::new(p.rgb("f0")))
+}
+
+fn generator<R: Number>(p: &Reader<'_, R>) -> Box<dyn Terms<R>> {
     let (alpha, schlick) = (Alpha(p.number("width")), Schlick::new(p.rgb("f0")));
     /// One type for all: they differ in the distribution alone.
     fn generate<D, F>(distribution: D, fresnel: F) -> AshikhminPremozeShirley<D, F> {

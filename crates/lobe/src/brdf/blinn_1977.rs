@@ -40,6 +40,12 @@ impl<R: Real, D: Distribution<R>, F: Fresnel<R>> Blinn1977<D, F, R> {
     pub fn ks(&self) -> Rgb<R> {
         self.ks
     }
+
+    /// The same terms with the factor `1/4` and a normalised distribution, and without `ks`.
+    #[inline(always)]
+    pub fn modern(self) -> Microfacet<D, VCavity, F> {
+        self.terms
+    }
 }
 
 impl<R: Real, D: Distribution<R>, F: Fresnel<R>> Brdf<R> for Blinn1977<D, F, R> {

@@ -37,6 +37,24 @@ impl<D, G, F> Microfacet<D, G, F> {
         Self { distribution, masking, fresnel }
     }
 
+    /// The distribution `D`.
+    #[inline(always)]
+    pub fn distribution(&self) -> &D {
+        &self.distribution
+    }
+
+    /// The masking `G`.
+    #[inline(always)]
+    pub fn masking(&self) -> &G {
+        &self.masking
+    }
+
+    /// The Fresnel term `F`.
+    #[inline(always)]
+    pub fn fresnel(&self) -> &F {
+        &self.fresnel
+    }
+
     #[inline(always)]
     fn weighted<R: Real>(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R>
     where
