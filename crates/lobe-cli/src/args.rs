@@ -240,15 +240,22 @@ pub(crate) struct PlotArgs {
     /// What to draw
     #[arg(long, value_enum, default_value = "polar")]
     pub(crate) kind: Kind,
-    /// A BRDF: JSON, @FILE or a preset; may be given several times (`surface` draws one). Not for `compare`
+    /// The BRDFs: JSON, @FILE, a preset or a measured one such as ngan:pvc/ward. `surface`, `slices` and `terms` draw one,
+    /// `compare` none, the others up to six
+    #[arg(value_name = "BRDF")]
+    pub(crate) specs: Vec<String>,
+    /// One more BRDF; may be given several times
     #[arg(long)]
     pub(crate) brdf: Vec<String>,
     /// The angle between the light and the normal, in degrees, from 0 to 89.9
     #[arg(long, default_value_t = 55.0, allow_negative_numbers = true, value_parser = parse_incidence)]
     pub(crate) incidence: f64,
-    /// Draw f_r times the cosine of the outgoing direction, as a goniometer would see it (polar, curve and surface)
+    /// Draw f_r times the cosine of the outgoing direction, as a goniometer would see it (polar, curve, slices and surface)
     #[arg(long)]
     pub(crate) cosine: bool,
+    /// A logarithmic scale: rings or lines for decades (polar, slices and distribution; `curve` has one anyway)
+    #[arg(long)]
+    pub(crate) log: bool,
     /// The exponent q of `compare`, from 0 to 250000
     #[arg(long, default_value_t = 50.0, allow_negative_numbers = true, value_parser = parse_exponent)]
     pub(crate) q: f64,
@@ -261,10 +268,14 @@ const PLOT_HELP: &str = "\
 Of a coloured lobe the luminance is drawn.
 
 Examples:
-  lobe plot --brdf paper --brdf red-plastic -o lobes.svg
+  lobe plot paper red-plastic -o lobes.svg
+  lobe plot ngan:pvc/cook-torrance ngan:pvc/ward ngan:pvc/blinn-phong --incidence 55 --log -o pvc.svg
+  lobe plot --kind terms ggx-gold -o terms.svg
+  lobe plot --kind distribution ggx-plastic ggx-gold --log -o distribution.svg
+  lobe plot --kind slices ngan:pvc/cook-torrance --log -o slices.svg
   lobe plot --kind compare --incidence 55 --q 50 -o compare.svg
-  lobe plot --kind surface --brdf '{\"lobes\": [{\"model\": \"phong\", \"ks\": 1, \"q\": 20}]}' -o surface.svg
-  lobe plot --kind curve --brdf glossy --incidence 80 -o - > curve.svg";
+  lobe plot --kind surface '{\"lobes\": [{\"model\": \"phong\", \"ks\": 1, \"q\": 20}]}' -o surface.svg
+  lobe plot --kind curve glossy --incidence 80 -o - > curve.svg";
 
 /// The kinds of plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -277,6 +288,12 @@ pub(crate) enum Kind {
     Surface,
     /// The value over the angle, on a logarithmic scale
     Curve,
+    /// One BRDF over the angle of the viewer, for light at 0°, 30°, 60° and 80°
+    Slices,
+    /// The distribution, the masking and the Fresnel term of a microfacet lobe
+    Terms,
+    /// The distributions of microfacet lobes around the normal, each to its own peak
+    Distribution,
 }
 
 fn parse_incidence(text: &str) -> Result<f64, String> {

@@ -1,113 +1,64 @@
-//! The value over the angle of the viewer, on a logarithmic scale: what a polar plot hides at the foot of a lobe.
+//! The value over the angle of the viewer: on a logarithmic scale, what a polar plot hides at the foot of a lobe; and in
+//! slices, one for each of some angles of the light.
 
-use super::svg::{Anchor, Point, SERIES, Svg, label};
-use super::{Series, Setting, peak, profile, short_name};
+use super::chart::{Chart, Scale};
+use super::svg::{Anchor, Svg, label};
+use super::{Series, Setting, legend, line_class, peak, profile, short_name};
 
 const WIDTH: f64 = 600.0;
-const LEFT: f64 = 66.0;
-const RIGHT: f64 = 584.0;
-const TOP: f64 = 44.0;
 const BOTTOM: f64 = 320.0;
-/// More decades than this are not worth their ink.
-const DECADES: f64 = 8.0;
+/// The angles of the light of [`slices`], in degrees.
+const SLICES: [f64; 4] = [0.0, 30.0, 60.0, 80.0];
 
 /// Draws `series` over the angles from −90° to 90° in the plane of incidence.
 pub(crate) fn curve(series: &[Series<'_>], setting: Setting) -> Svg {
     let profiles: Vec<_> = series.iter().map(|one| profile(one, setting)).collect();
-    let largest = peak(&profiles);
-    let high = if largest > 0.0 { largest.log10().ceil() } else { 0.0 };
-    let smallest = profiles.iter().flatten().fold(f64::INFINITY, |min, &(theta, value)| {
-        // At the very horizon a cosine takes everything to 0; that is no reason for more decades.
-        if value > 0.0 && theta.abs() < 1.55 { value.min(min) } else { min }
-    });
-    let low = smallest.log10().floor().clamp(high - DECADES, high - 1.0);
-
-    let x = |theta: f64| LEFT + (theta.to_degrees() + 90.0) / 180.0 * (RIGHT - LEFT);
-    let y = |log: f64| BOTTOM - (log - low) / (high - low) * (BOTTOM - TOP);
-    let height = BOTTOM + 62.0 + 22.0 * series.len() as f64;
+    let chart = chart(decades(&profiles));
     let title = format!("Reflectance over the viewing angle, light at {}°", label(setting.incidence));
-    let mut svg = Svg::new(WIDTH, height, &title);
-
-    for decade in low as i32..=high as i32 {
-        let at = y(f64::from(decade));
-        svg.line("grid", (LEFT, at), (RIGHT, at));
-        svg.math("soft", (LEFT - 8.0, at + 4.0), Anchor::End, &power_of_ten(decade));
-        for digit in 2..=9 {
-            let minor = y(f64::from(decade) + f64::from(digit).log10());
-            if minor > TOP {
-                svg.line("axis", (LEFT, minor), (LEFT + 4.0, minor));
-            }
-        }
+    let mut svg = Svg::new(WIDTH, BOTTOM + 62.0 + 22.0 * series.len() as f64, &title);
+    chart.axes(&mut svg, setting.quantity(), "viewing angle *θ* in the plane of incidence");
+    // At normal incidence the two are one line.
+    let marks = [(-setting.incidence, "*l*", -1.0), (setting.incidence, "*r*", 1.0)];
+    for (angle, text, side) in marks {
+        let at = chart.x(angle);
+        svg.line("thin", (at, chart.top), (at, chart.bottom));
+        let apart = if setting.incidence < 3.0 { 8.0 * side } else { 0.0 };
+        svg.math("", (at + apart, chart.top - 7.0), Anchor::Middle, text);
     }
-    for tick in -6..=6 {
-        let angle = f64::from(tick) * 15.0;
-        let at = x(angle.to_radians());
-        svg.line("grid", (at, TOP), (at, BOTTOM));
-        if tick % 2 == 0 {
-            svg.text("soft", (at, BOTTOM + 18.0), Anchor::Middle, &format!("{angle}°").replace('-', "−"));
-        }
-    }
-    for (angle, text) in [(-setting.incidence, "*l*"), (setting.incidence, "*r*")] {
-        let at = x(angle.to_radians());
-        svg.line("thin", (at, TOP), (at, BOTTOM));
-        svg.math("", (at, TOP - 7.0), Anchor::Middle, text);
-    }
-    svg.path("axis", &[(LEFT, TOP), (LEFT, BOTTOM), (RIGHT, BOTTOM)], false);
-    svg.math("soft", (LEFT - 60.0, TOP - 26.0), Anchor::Start, setting.quantity());
-    let below = "viewing angle *θ* in the plane of incidence";
-    svg.math("soft", ((LEFT + RIGHT) / 2.0, BOTTOM + 35.0), Anchor::Middle, below);
-
     for (index, (one, profile)) in series.iter().zip(&profiles).enumerate() {
-        let class = format!("c{}", index % SERIES);
-        let logs: Vec<_> = profile.iter().map(|&(theta, value)| (theta, value.max(1e-300).log10())).collect();
-        for piece in above(&logs, low) {
-            let points: Vec<Point> = piece.iter().map(|&(theta, log)| (x(theta), y(log))).collect();
-            svg.path(&class, &points, false);
-        }
-        let row = BOTTOM + 60.0 + 22.0 * index as f64;
-        svg.line(&class, (40.0, row - 5.0), (76.0, row - 5.0));
-        svg.text("", (86.0, row), Anchor::Start, &short_name(&one.name, 60));
+        chart.curve(&mut svg, &line_class(index), profile);
+        legend(&mut svg, index, (40.0, BOTTOM + 60.0), &short_name(&one.name, 60));
     }
     svg
 }
 
-/// The pieces of a curve that are above `floor`, cut where they cross it.
-fn above(curve: &[(f64, f64)], floor: f64) -> Vec<Vec<(f64, f64)>> {
-    let mut pieces = Vec::new();
-    let mut piece: Vec<(f64, f64)> = Vec::new();
-    let mut last: Option<(f64, f64)> = None;
-    for &(x, y) in curve {
-        if let Some((x0, y0)) = last
-            && (y0 < floor) != (y < floor)
-        {
-            piece.push((x0 + (x - x0) * (floor - y0) / (y - y0), floor));
-        }
-        if y >= floor {
-            piece.push((x, y));
-        } else if !piece.is_empty() {
-            pieces.push(std::mem::take(&mut piece));
-        }
-        last = Some((x, y));
+/// Draws one BRDF over the angle of the viewer for each of [`SLICES`].
+pub(crate) fn slices(one: &Series<'_>, setting: Setting) -> Svg {
+    let at = |incidence| Setting { incidence, ..setting };
+    let profiles: Vec<_> = SLICES.into_iter().map(|incidence| profile(one, at(incidence))).collect();
+    let chart = chart(if setting.log { decades(&profiles) } else { Scale::linear(peak(&profiles)) });
+    let title = format!("{} over the viewing angle, for four angles of the light", one.name);
+    let mut svg = Svg::new(WIDTH, BOTTOM + 84.0 + 22.0 * SLICES.len() as f64, &title);
+    let below = "viewing angle *θ*_{v} in the plane of incidence; the light is at −*θ*_{l}";
+    chart.axes(&mut svg, setting.quantity(), below);
+    svg.text("", (40.0, BOTTOM + 64.0), Anchor::Start, &short_name(&one.name, 60));
+    for (index, (incidence, profile)) in SLICES.into_iter().zip(&profiles).enumerate() {
+        chart.curve(&mut svg, &line_class(index), profile);
+        let peak = label(peak(std::slice::from_ref(profile)));
+        let text = format!("light at {}°  (peak {peak})", label(incidence));
+        legend(&mut svg, index, (40.0, BOTTOM + 88.0), &text);
     }
-    pieces.push(piece);
-    pieces.retain(|piece| piece.len() > 1);
-    pieces
+    svg
 }
 
-fn power_of_ten(exponent: i32) -> String {
-    match exponent {
-        -2..=3 => label(10.0_f64.powi(exponent)),
-        _ => format!("10^{{{}}}", exponent.to_string().replace('-', "−")),
-    }
+fn chart(scale: Scale) -> Chart {
+    Chart { left: 66.0, right: 584.0, top: 44.0, bottom: BOTTOM, angles: (-90, 90), scale }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_curve_is_cut_at_the_floor() {
-        let pieces = above(&[(0.0, -2.0), (1.0, 0.0), (2.0, 1.0), (3.0, -1.0)], -1.0);
-        assert_eq!(pieces, vec![vec![(0.5, -1.0), (1.0, 0.0), (2.0, 1.0), (3.0, -1.0)]]);
-    }
+/// The decades that the profiles fill.
+fn decades(profiles: &[Vec<(f64, f64)>]) -> Scale {
+    // At the very horizon a cosine takes everything to 0; that is no reason for more decades.
+    let inside = profiles.iter().flatten().filter(|(theta, _)| theta.abs() < 1.55);
+    let largest = peak(profiles);
+    Scale::decades(inside.map(|&(_, value)| value).chain([largest]))
 }

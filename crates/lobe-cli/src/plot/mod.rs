@@ -1,24 +1,29 @@
 //! `lobe plot`: lobes as SVG.
 
+mod chart;
 mod compare;
 mod curve;
 mod polar;
 mod surface;
 pub(crate) mod svg;
+mod terms;
 
 pub(crate) use compare::{compare, compare_panel};
-pub(crate) use curve::curve;
-pub(crate) use polar::polar;
+pub(crate) use curve::{curve, slices};
+pub(crate) use polar::{distribution, polar};
 pub(crate) use surface::surface;
+pub(crate) use terms::{Cut, Facets, terms};
 
 use crate::args::{Kind, PlotArgs};
 use crate::error::Failure;
 use crate::output;
 use crate::spec;
+use clap::ValueEnum as _;
 use lobe::{Brdf, Vec3};
 use lobe_models::Material;
 use serde_json::json;
 use std::io::Write as _;
+use svg::{Anchor, Point, Svg};
 
 /// A BRDF with the name that it has in the legend.
 pub(crate) struct Series<'a> {
@@ -33,6 +38,8 @@ pub(crate) struct Setting {
     pub(crate) incidence: f64,
     /// Whether values are multiplied with the cosine of the outgoing direction.
     pub(crate) cosine: bool,
+    /// Whether radii and heights are logarithmic, where a plot can be drawn either way.
+    pub(crate) log: bool,
 }
 
 impl Setting {
@@ -78,6 +85,18 @@ fn peak(profiles: &[Vec<(f64, f64)>]) -> f64 {
     profiles.iter().flatten().fold(0.0, |max, &(_, value)| value.max(max))
 }
 
+/// The class of the line with this number.
+fn line_class(index: usize) -> String {
+    format!("c{}", index % svg::SERIES)
+}
+
+/// A row of a legend that begins at `first`.
+fn legend(svg: &mut Svg, index: usize, first: Point, text: &str) {
+    let (x, y) = (first.0, first.1 + 22.0 * index as f64);
+    svg.line(&line_class(index), (x, y - 5.0), (x + 36.0, y - 5.0));
+    svg.text("", (x + 46.0, y), Anchor::Start, text);
+}
+
 /// A name that fits into a legend.
 fn short_name(name: &str, longest: usize) -> String {
     if name.chars().count() <= longest {
@@ -88,13 +107,17 @@ fn short_name(name: &str, longest: usize) -> String {
 
 /// Runs the verb.
 pub(crate) fn run(args: &PlotArgs, quiet: bool, json: bool) -> Result<(), Failure> {
-    let setting = Setting { incidence: args.incidence, cosine: args.cosine };
+    let setting = Setting { incidence: args.incidence, cosine: args.cosine, log: args.log };
     let ending = args.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
     if !ending && args.output.as_os_str() != "-" {
         let path = args.output.display();
         return Err(Failure::Usage(format!(
             "{path}: unknown kind of file; plots end in .svg, or - is standard output"
         )));
+    }
+    if args.log && matches!(args.kind, Kind::Compare | Kind::Surface | Kind::Terms) {
+        let right = "leave it out, or take --kind polar, slices or distribution";
+        return Err(Failure::Usage(format!("--log is not for --kind {}; {right}", kind_name(args.kind))));
     }
     let specs = specs(args)?;
     if !quiet {
@@ -105,11 +128,14 @@ pub(crate) fn run(args: &PlotArgs, quiet: bool, json: bool) -> Result<(), Failur
     let brdfs: Vec<_> = specs.iter().map(|spec| spec.build::<f64>()).collect();
     let series: Vec<_> =
         specs.iter().zip(&brdfs).map(|(spec, brdf)| Series { name: legend_name(spec), brdf: &**brdf }).collect();
-    let svg = match (args.kind, series.first()) {
-        (Kind::Polar, _) => polar(&series, setting),
-        (Kind::Curve, _) => curve(&series, setting),
-        (Kind::Surface, Some(first)) => surface(first, setting),
-        (Kind::Compare, _) | (Kind::Surface, None) => compare(args.q, args.incidence),
+    let svg = match (args.kind, series.first(), specs.first()) {
+        (Kind::Polar, ..) => polar(&series, setting),
+        (Kind::Curve, ..) => curve(&series, setting),
+        (Kind::Distribution, ..) => distribution(&cuts(&specs)?, args.log),
+        (Kind::Surface, Some(first), _) => surface(first, setting),
+        (Kind::Slices, Some(first), _) => slices(first, setting),
+        (Kind::Terms, _, Some(first)) => terms(&first.name, &Facets::of(first)?),
+        (Kind::Compare | Kind::Surface | Kind::Slices | Kind::Terms, ..) => compare(args.q, args.incidence),
     };
     output::write_file(&args.output, svg.file().as_bytes())?;
     let to_stdout = args.output.as_os_str() == "-";
@@ -124,21 +150,38 @@ pub(crate) fn run(args: &PlotArgs, quiet: bool, json: bool) -> Result<(), Failur
 
 /// The BRDFs to draw: those asked for, or a few that show what there is.
 fn specs(args: &PlotArgs) -> Result<Vec<Material>, Failure> {
-    let given: Vec<&str> = args.brdf.iter().map(String::as_str).collect();
-    let (names, most) = match args.kind {
-        Kind::Compare if !given.is_empty() => {
-            let right = "give --q, or --kind polar to draw BRDFs";
-            return Err(Failure::Usage(format!("--kind compare draws no --brdf; {right}")));
-        }
-        Kind::Compare => return Ok(Vec::new()),
-        Kind::Surface => (if given.is_empty() { vec!["glossy"] } else { given }, 1),
-        _ => (if given.is_empty() { vec!["mirror-lobe", "half-vector-lobe"] } else { given }, svg::SERIES),
+    let (default, most): (&[&str], usize) = match args.kind {
+        Kind::Compare => (&[], 0),
+        Kind::Polar | Kind::Curve => (&["mirror-lobe", "half-vector-lobe"], svg::SERIES),
+        Kind::Distribution => (&["ggx-plastic", "ggx-gold"], svg::SERIES),
+        Kind::Surface => (&["glossy"], 1),
+        Kind::Slices => (&["ggx-plastic"], 1),
+        Kind::Terms => (&["ggx-gold"], 1),
     };
-    if names.len() > most {
-        let found = names.len();
-        return Err(Failure::Usage(format!("{found} times --brdf; this kind of plot draws at most {most}")));
+    let given: Vec<&str> = args.specs.iter().chain(&args.brdf).map(String::as_str).collect();
+    if given.len() > most {
+        let (kind, found) = (kind_name(args.kind), given.len());
+        return Err(Failure::Usage(match args.kind {
+            Kind::Compare => "--kind compare draws no --brdf; give --q, or --kind polar to draw BRDFs".to_owned(),
+            _ => format!("{found} BRDFs; --kind {kind} draws at most {most}"),
+        }));
     }
-    names.into_iter().map(spec::from_argument).collect()
+    let names = if given.is_empty() { default } else { &given };
+    names.iter().copied().map(spec::from_argument).collect()
+}
+
+/// The name of a kind on the command line.
+fn kind_name(kind: Kind) -> String {
+    kind.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+}
+
+/// The distributions of all materials; one that is anisotropic has two.
+fn cuts(specs: &[Material]) -> Result<Vec<Cut>, Failure> {
+    let mut cuts = Vec::new();
+    for spec in specs {
+        cuts.extend(Facets::of(spec)?.cuts(&legend_name(spec)));
+    }
+    Ok(cuts)
 }
 
 fn legend_name(spec: &Material) -> String {

@@ -7,14 +7,16 @@
 use super::svg::{Anchor, Point, Svg, label};
 use super::{Series, Setting, direction, short_name};
 use lobe::Vec3;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 const WIDTH: f64 = 600.0;
 const HEIGHT: f64 = 448.0;
 const CENTRE: Point = (300.0, 290.0);
 const RADIUS: f64 = 236.0;
 /// Patches along and around the lobe.
-const RINGS: u32 = 44;
+const RINGS: u32 = 48;
+/// Those up to a right angle from the mirror direction.
+const INNER_RINGS: u32 = 36;
 const SECTORS: u32 = 72;
 
 /// What is painted from the back to the front.
@@ -92,25 +94,37 @@ pub(crate) fn surface(series: &Series<'_>, setting: Setting) -> Svg {
     svg
 }
 
-/// The directions of the upper hemisphere with their values, in rings around the mirror direction.
+/// The directions of the upper hemisphere with their values, in rings around the mirror direction. Two of the rings are
+/// at right angles to it, one on each side: there a mirror lobe ends, and with a small exponent it ends in a step.
 fn grid(series: &Series<'_>, setting: Setting, mirror: f64) -> Vec<Vec<(Vec3<f64>, f64)>> {
     let pole = direction(mirror);
     let (up, side) = (Vec3::new(-mirror.cos(), 0.0, mirror.sin()), Vec3::new(0.0, 1.0, 0.0));
     (0..=RINGS)
         .map(|ring| {
-            let part = f64::from(ring) / f64::from(RINGS);
             (0..=SECTORS)
                 .map(|sector| {
                     let turn = up * angle_of(sector).cos() + side * angle_of(sector).sin();
                     // z = pole.z cos a + turn.z sin a is 0 at the horizon; just above it the lobe still has a value.
                     let horizon = (pole.z).atan2(-turn.z).min(PI) * (1.0 - 1e-9);
-                    let (sin, cos) = (horizon * part * part).sin_cos();
+                    let (sin, cos) = ring_angle(ring, horizon).sin_cos();
                     let v = pole * cos + turn * sin;
                     (v, setting.value(series.brdf, v))
                 })
                 .collect()
         })
         .collect()
+}
+
+/// The angle between the mirror direction and a ring, which ends at `horizon`: dense near the mirror direction.
+fn ring_angle(ring: u32, horizon: f64) -> f64 {
+    let inner = horizon.min(FRAC_PI_2 * (1.0 - 1e-9));
+    if ring <= INNER_RINGS {
+        let part = f64::from(ring) / f64::from(INNER_RINGS);
+        inner * part * part
+    } else {
+        let outer = horizon.min(FRAC_PI_2 * (1.0 + 1e-9));
+        outer + (horizon - outer) * f64::from(ring - INNER_RINGS - 1) / f64::from(RINGS - INNER_RINGS - 1)
+    }
 }
 
 fn angle_of(sector: u32) -> f64 {
@@ -245,7 +259,7 @@ mod tests {
         for incidence in [0.0, 30.0, 85.0] {
             let Ok(brdf) = &brdf else { panic!("no preset") };
             let series = Series { name: String::new(), brdf: &**brdf };
-            let setting = Setting { incidence, cosine: false };
+            let setting = Setting { incidence, cosine: false, log: false };
             let grid = grid(&series, setting, incidence.to_radians());
             for (v, value) in grid.iter().flatten() {
                 assert!(v.z > 0.0 && v.z <= 1.0 && *value > 0.25, "{incidence} {v:?} {value}");

@@ -42,12 +42,14 @@ const STYLE: &str = "\
 .lobe-plot .dash{fill:none;stroke:#777;stroke-width:1.2}\
 .lobe-plot .mesh{fill:none;stroke:#0b2f50;stroke-opacity:.55}\
 .lobe-plot .ground{fill:#efefef}.lobe-plot .below{fill:#e6e6e6}\
-.lobe-plot .c0,.lobe-plot .c1,.lobe-plot .c2,.lobe-plot .c3,.lobe-plot .c4,.lobe-plot .c5\
-{fill:none;stroke-width:2.2;stroke-linejoin:round;stroke-linecap:round}\
+.lobe-plot .c0,.lobe-plot .c1,.lobe-plot .c2,.lobe-plot .c3,.lobe-plot .c4,.lobe-plot .c5,\
+.lobe-plot .red,.lobe-plot .green,.lobe-plot .blue{fill:none;stroke-width:2.2;stroke-linejoin:round;stroke-linecap:round}\
 .lobe-plot .wide{stroke-width:6;stroke-opacity:.45}.lobe-plot .fill{stroke:none;fill-opacity:.1}\
 .lobe-plot .c0{stroke:#0067a5}.lobe-plot .c1{stroke:#c8500a;stroke-dasharray:9 5}\
 .lobe-plot .c2{stroke:#00805a;stroke-dasharray:2 5}.lobe-plot .c3{stroke:#9c3f8c;stroke-dasharray:11 4 2 4}\
 .lobe-plot .c4{stroke:#8a6a00;stroke-dasharray:5 3}.lobe-plot .c5{stroke:#444;stroke-dasharray:15 4}\
+.lobe-plot .red{stroke:#c62828}.lobe-plot .green{stroke:#1c8440;stroke-dasharray:9 5}\
+.lobe-plot .blue{stroke:#2f5fd0;stroke-dasharray:2 5}\
 .lobe-plot .f0{fill:#0067a5}.lobe-plot .f1{fill:#c8500a}.lobe-plot .f2{fill:#00805a}\
 .lobe-plot .f3{fill:#9c3f8c}.lobe-plot .f4{fill:#8a6a00}.lobe-plot .f5{fill:#444}";
 
@@ -58,6 +60,7 @@ const DARK: &str = "\
 .lobe-plot .ground{fill:#24272d}.lobe-plot .below{fill:#2a2e35}\
 .lobe-plot .c0{stroke:#5db5ee}.lobe-plot .c1{stroke:#ff9350}.lobe-plot .c2{stroke:#3fcf9e}\
 .lobe-plot .c3{stroke:#e29ad6}.lobe-plot .c4{stroke:#e3c04b}.lobe-plot .c5{stroke:#c4c4c4}\
+.lobe-plot .red{stroke:#ff7d76}.lobe-plot .green{stroke:#5dd488}.lobe-plot .blue{stroke:#86aeff}\
 .lobe-plot .f0{fill:#5db5ee}.lobe-plot .f1{fill:#ff9350}.lobe-plot .f2{fill:#3fcf9e}\
 .lobe-plot .f3{fill:#e29ad6}.lobe-plot .f4{fill:#e3c04b}.lobe-plot .f5{fill:#c4c4c4}";
 

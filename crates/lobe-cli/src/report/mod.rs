@@ -183,7 +183,7 @@ fn plots(scene: &Scene) -> Vec<Plot> {
         let names = ["phong q=50", "blinn-phong q=50"];
         let series: Vec<Series<'_>> =
             names.iter().zip(&brdfs).map(|(name, brdf)| Series { name: (*name).to_owned(), brdf: &**brdf }).collect();
-        let setting = Setting { incidence: 55.0, cosine: false };
+        let setting = Setting { incidence: 55.0, cosine: false, log: false };
         plots.push(Plot {
             title: "The same two as BRDFs".to_owned(),
             caption:
@@ -192,7 +192,7 @@ fn plots(scene: &Scene) -> Vec<Plot> {
             svg: plot::polar(&series, setting),
         });
         plots.extend(scene_curves(scene));
-        let grazing = Setting { incidence: 75.0, cosine: false };
+        let grazing = Setting { incidence: 75.0, cosine: false, log: false };
         for (one, caption) in series.iter().zip([
             "The mirror lobe is a body of revolution around r, cut off by the surface.",
             "The half-vector lobe is a blade: high in the plane of incidence, thin across it.",
@@ -230,7 +230,7 @@ fn scene_curves(scene: &Scene) -> Option<Plot> {
     Some(Plot {
         title: "The scene's materials over the viewing angle".to_owned(),
         caption: format!("On a logarithmic scale, light at 55°: the diffuse floor and the highlight on it.{left_out}"),
-        svg: plot::curve(&series, Setting { incidence: 55.0, cosine: false }),
+        svg: plot::curve(&series, Setting { incidence: 55.0, cosine: false, log: false }),
     })
 }
 
