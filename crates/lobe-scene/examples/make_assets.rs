@@ -26,6 +26,8 @@ pub(crate) fn files() -> [(&'static str, String); 3] {
 
 /// The exponents of the front row.
 const EXPONENTS: [u32; 6] = [1, 4, 16, 64, 256, 1024];
+/// The widths α of the gold in their place.
+const WIDTHS: [f64; 6] = [0.6, 0.4, 0.25, 0.15, 0.08, 0.04];
 /// The niches: where the light of each stands, in degrees from the front, to the left and upwards.
 const LIGHTS: [[f64; 2]; 5] = [[-58.0, 10.0], [-30.0, 35.0], [0.0, 65.0], [30.0, 35.0], [58.0, 10.0]];
 /// Distance of those lights from the middle of their sphere.
@@ -254,16 +256,37 @@ fn niche_lights(strength: f64) -> Vec<String> {
         .collect()
 }
 
+/// The materials of the view `models`: gold from rough to smooth in the row, and others behind it.
+fn models() -> String {
+    let mut lines: Vec<String> = EXPONENTS
+        .iter()
+        .zip(WIDTHS)
+        .map(|(q, alpha)| {
+            let gold = format!(
+                "{{\"model\": \"microfacet\", \"alpha\": {alpha}, \"fresnel\": \"conductor\", \"metal\": \"gold\"}}"
+            );
+            format!("\"q{q}\": {{\"name\": \"gold-{alpha}\", \"lobes\": [{gold}]}}")
+        })
+        .collect();
+    let plastic = "{\"model\": \"gltf\", \"base-color\": [0.03, 0.3, 0.22], \"metallic\": 0, \"roughness\": 0.35}";
+    lines.push(format!("\"glossy\": {{\"name\": \"gltf-plastic\", \"lobes\": [{plastic}]}}"));
+    let measured = [("clay", "dark-red-paint"), ("mirror", "nickel"), ("copper", "blue-metallic-paint")];
+    lines.extend(measured.map(|(name, material)| format!("\"{name}\": \"ngan:{material}/cook-torrance\"")));
+    lines.join(",\n      ")
+}
+
 fn description() -> String {
     let key = point_light([-7.0, 10.5, 9.5], [640.0, 610.0, 570.0], 1.2);
     let fill = point_light([9.0, 7.0, 9.0], [130.0, 150.0, 190.0], 1.5);
     let rim = point_light([1.0, 9.5, -3.5], [110.0, 115.0, 125.0], 0.8);
     let ambient = "{\"ambient\": [0.13, 0.14, 0.16]}".to_owned();
+    let two = [key.as_str(), &fill, &ambient].join(",\n      ");
     let mut general = vec![key.clone(), fill, rim, ambient];
     let general_text = general.join(",\n    ");
     general.extend(niche_lights(0.25));
     let overview = general.join(",\n      ");
     let one = format!("{key},\n      {{\"ambient\": [0.1, 0.1, 0.1]}}");
+    let models = models();
     let mut local = niche_lights(0.9);
     local.push("{\"ambient\": [0.04, 0.04, 0.04]}".to_owned());
     let local = local.join(",\n      ");
@@ -295,7 +318,15 @@ fn description() -> String {
     {{"name": "materials",
      "camera": {{"eye": [0, 4, 8], "target": [0, 2.6, -0.7], "fov_y_degrees": 23}}}},
     {{"name": "smooth-flat",
-     "camera": {{"eye": [0, 4.6, 12.1], "target": [0, 3.3, -1.1], "fov_y_degrees": 29}}}}
+     "camera": {{"eye": [0, 4.6, 12.1], "target": [0, 3.3, -1.1], "fov_y_degrees": 29}}}},
+    {{"name": "models",
+     "camera": {{"eye": [0, 4.2, 13], "target": [0, 2.35, 0], "fov_y_degrees": 25}},
+     "lights": [
+      {two}
+     ],
+     "materials": {{
+      {models}
+     }}}}
   ]
 }}
 "#

@@ -382,7 +382,7 @@ fn the_built_in_scene_is_what_the_generator_makes() -> Result<(), Box<dyn std::e
     let scene = lobe_scene::default_scene(&lobe_scene::LoadOptions::default())?;
     assert_eq!(scene.warnings, []);
     let names: Vec<_> = scene.views.iter().map(|view| view.name.as_str()).collect();
-    assert_eq!(names, ["overview", "exponent", "light", "materials", "smooth-flat"]);
+    assert_eq!(names, ["overview", "exponent", "light", "materials", "smooth-flat", "models"]);
     for name in ["knot smooth", "knot flat"] {
         let part = scene.parts.iter().find(|part| part.name == name).ok_or(name)?;
         assert_eq!(part.triangles.len(), 20_160);
