@@ -320,7 +320,7 @@ fn description() -> String {
     {{"name": "smooth-flat",
      "camera": {{"eye": [0, 4.6, 12.1], "target": [0, 3.3, -1.1], "fov_y_degrees": 29}}}},
     {{"name": "models",
-     "camera": {{"eye": [0, 4.2, 13], "target": [0, 2.35, 0], "fov_y_degrees": 25}},
+     "camera": {{"eye": [0, 4.3, 13.2], "target": [0, 3.1, 0], "fov_y_degrees": 27.5}},
      "lights": [
       {two}
      ],

@@ -108,7 +108,11 @@ impl Chart {
                 svg.line("axis", (self.left, at), (self.left + 4.0, at));
             }
         }
-        let step = if self.angles.1 - self.angles.0 > 30 { 15 } else { 5 };
+        let step = match self.angles.1 - self.angles.0 {
+            ..=10 => 1,
+            ..=30 => 5,
+            _ => 15,
+        };
         for angle in (self.angles.0..=self.angles.1).step_by(step as usize) {
             let at = self.x(f64::from(angle));
             svg.line("grid", (at, self.top), (at, self.bottom));

@@ -2,14 +2,56 @@
 
 use lobe::{Brdf, Rgb, Vec3};
 use lobe_energy::{Albedo, Exchanged, directional_albedo};
-use lobe_scene::{LobeRecord, Material};
+use lobe_scene::{LobeRecord, Material, Scene, View};
 use rayon::prelude::*;
 use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// A material that a view shows.
+pub(crate) struct Shown<'a> {
+    pub(crate) material: Material,
+    /// What it was built from, if a view puts it in the place of one of the scene's materials.
+    pub(crate) lobes: Option<&'a lobe_models::Material>,
+    /// The views that put it there.
+    views: Vec<String>,
+}
+
+/// What the views show, once each: the materials of the scene, and what a view puts in their place.
+pub(crate) fn shown(scene: &Scene) -> Vec<Shown<'_>> {
+    let mut shown: Vec<Shown<'_>> = Vec::new();
+    static NOTHING: BTreeMap<String, lobe_models::Material> = BTreeMap::new();
+    let named: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
+    let replaced = scene.views.iter().map(|view| &view.materials);
+    let all: Vec<_> = if named.is_empty() { vec![&NOTHING] } else { replaced.collect() };
+    for (index, replaced) in all.into_iter().enumerate() {
+        for material in &scene.materials {
+            let lobes = replaced.get(&material.name).or_else(|| replaced.get(View::ALL));
+            let name = match lobes {
+                Some(lobes) if lobes.name != lobes.description() => &lobes.name,
+                _ => &material.name,
+            };
+            let view = lobes.and(named.get(index)).map(|view| (*view).to_owned());
+            if let Some(known) = shown.iter_mut().find(|known| known.material.name == *name && known.lobes == lobes) {
+                known.views.extend(view.filter(|view| !known.views.contains(view)));
+                continue;
+            }
+            let material = match lobes {
+                Some(lobes) => Material { dissolve: material.dissolve, ..Material::from_lobes(name, lobes) },
+                None => material.clone(),
+            };
+            shown.push(Shown { material, lobes, views: view.into_iter().collect() });
+        }
+    }
+    shown
+}
 
 /// A row of the table.
 #[derive(Debug, Serialize)]
 pub(crate) struct MaterialFacts {
     pub(crate) name: String,
+    /// The views that put it in the place of another; empty for a material of the scene itself.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) views: Vec<String>,
     pub(crate) lobes: Vec<LobeFacts>,
     pub(crate) ambient: [f32; 3],
     pub(crate) emission: [f32; 3],
@@ -92,18 +134,19 @@ fn model_name(model: &str) -> &str {
 }
 
 /// Everything about all materials; `done` is called after each.
-pub(crate) fn facts(materials: &[Material], done: &(dyn Fn() + Sync)) -> Vec<MaterialFacts> {
+pub(crate) fn facts(materials: &[Shown<'_>], done: &(dyn Fn() + Sync)) -> Vec<MaterialFacts> {
     materials
         .par_iter()
-        .map(|material| {
-            let facts = one(material);
+        .map(|shown| {
+            let facts = one(shown);
             done();
             facts
         })
         .collect()
 }
 
-fn one(material: &Material) -> MaterialFacts {
+fn one(shown: &Shown<'_>) -> MaterialFacts {
+    let material = &shown.material;
     let whole = Whole::of(material);
     let mirror: Rgb<f64> = material.mirror.ks().map(f64::from);
     let can_be_integrated = whole.0.iter().all(|lobe| lobe.reference.is_some());
@@ -144,6 +187,7 @@ fn one(material: &Material) -> MaterialFacts {
     let gains_energy = highest.1 > 1.0 + QUADRATURE_ERROR;
     MaterialFacts {
         name: material.name.clone(),
+        views: shown.views.clone(),
         ambient: material.ambient.into(),
         emission: material.emission.into(),
         dissolve: material.dissolve,

@@ -10,13 +10,13 @@ mod random;
 use crate::args::ReportArgs;
 use crate::error::Failure;
 use crate::output;
-use crate::plot::{self, Series, Setting, svg::Svg};
+use crate::plot::{self, Cut, Facets, Series, Setting, svg::Svg};
 use crate::progress::Progress;
 use crate::render;
 use crate::spec;
 use checks::Check;
-use lobe_scene::{Renderer, Scene};
-use materials::{MaterialFacts, Whole};
+use lobe_scene::Renderer;
+use materials::{MaterialFacts, Shown, Whole};
 use pictures::Picture;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -62,6 +62,14 @@ pub(crate) struct Plot {
     pub(crate) title: String,
     pub(crate) caption: String,
     pub(crate) svg: Svg,
+    /// Whether it takes the whole width of the page.
+    pub(crate) wide: bool,
+}
+
+impl Plot {
+    fn new(title: impl Into<String>, caption: impl Into<String>, svg: Svg) -> Self {
+        Self { title: title.into(), caption: caption.into(), svg, wide: false }
+    }
 }
 
 /// Runs the verb.
@@ -85,8 +93,9 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
     let render = start_render.elapsed().as_secs_f64();
 
     let start_energy = Instant::now();
-    let bar = Progress::new("energy", scene.materials.len() as u64, quiet);
-    let materials = materials::facts(&scene.materials, &|| bar.advance(1));
+    let shown = materials::shown(&scene);
+    let bar = Progress::new("energy", shown.len() as u64, quiet);
+    let materials = materials::facts(&shown, &|| bar.advance(1));
     drop(bar);
     let energy = start_energy.elapsed().as_secs_f64();
 
@@ -96,7 +105,7 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
     drop(bar);
     let check_seconds = start_checks.elapsed().as_secs_f64();
 
-    let plots = plots(&scene);
+    let plots = plots(&shown);
     let warnings = scene.warnings.iter().map(ToString::to_string).chain(more_warnings).collect();
     let total = start.elapsed().as_secs_f64();
     let facts = Facts {
@@ -154,7 +163,7 @@ fn command(args: &ReportArgs) -> String {
 }
 
 /// The plots: the lecture's comparison, the lobes as BRDFs, and those of the scene.
-fn plots(scene: &Scene) -> Vec<Plot> {
+fn plots(shown: &[Shown<'_>]) -> Vec<Plot> {
     const Q: f64 = 50.0;
     let mut plots = Vec::new();
     for (incidence, caption) in [
@@ -170,11 +179,8 @@ fn plots(scene: &Scene) -> Vec<Plot> {
              lobe stays round, and nearly half of it is below the surface. No exponent makes one into the other.",
         ),
     ] {
-        plots.push(Plot {
-            title: format!("Mirror lobe and half-vector lobe, light at {incidence}°"),
-            caption: caption.to_owned(),
-            svg: plot::compare_panel(Q, incidence),
-        });
+        let title = format!("Mirror lobe and half-vector lobe, light at {incidence}°");
+        plots.push(Plot::new(title, caption, plot::compare_panel(Q, incidence)));
     }
 
     let presets = ["mirror-lobe", "half-vector-lobe"].map(spec::from_argument);
@@ -184,54 +190,96 @@ fn plots(scene: &Scene) -> Vec<Plot> {
         let series: Vec<Series<'_>> =
             names.iter().zip(&brdfs).map(|(name, brdf)| Series { name: (*name).to_owned(), brdf: &**brdf }).collect();
         let setting = Setting { incidence: 55.0, cosine: false, log: false };
-        plots.push(Plot {
-            title: "The same two as BRDFs".to_owned(),
-            caption:
-                "Normalised to reflect the same part of the light at normal incidence, the wider lobe is the lower one. Values in sr⁻¹."
-                    .to_owned(),
-            svg: plot::polar(&series, setting),
-        });
-        plots.extend(scene_curves(scene));
+        plots.push(Plot::new(
+            "The same two as BRDFs",
+            "Normalised to reflect the same part of the light at normal incidence, the wider lobe is the lower one. Values in sr⁻¹.",
+            plot::polar(&series, setting),
+        ));
+        plots.extend(scene_curves(shown));
         let grazing = Setting { incidence: 75.0, cosine: false, log: false };
         for (one, caption) in series.iter().zip([
             "The mirror lobe is a body of revolution around r, cut off by the surface.",
             "The half-vector lobe is a blade: high in the plane of incidence, thin across it.",
         ]) {
-            plots.push(Plot {
-                title: format!("{} in three dimensions, light at 75°", one.name),
-                caption: caption.to_owned(),
-                svg: plot::surface(one, grazing),
-            });
+            let title = format!("{} in three dimensions, light at 75°", one.name);
+            plots.push(Plot::new(title, caption, plot::surface(one, grazing)));
         }
     }
+    plots.extend(model_plots(shown));
     plots
 }
 
-/// The materials of the scene that have a highlight, at most as many as there are line styles.
-fn scene_curves(scene: &Scene) -> Option<Plot> {
-    let shiny: Vec<(&str, Whole)> = scene
-        .materials
-        .iter()
+/// As many of a list as there are line styles, spread over it.
+fn spread<T>(all: &[T]) -> impl Iterator<Item = &T> {
+    let count = all.len().min(plot::svg::SERIES);
+    (0..count).filter_map(move |i| all.get(i * all.len() / count))
+}
+
+/// The materials of the scene itself that have a highlight.
+fn scene_curves(shown: &[Shown<'_>]) -> Option<Plot> {
+    let own = shown.iter().filter(|shown| shown.lobes.is_none()).map(|shown| &shown.material);
+    let shiny: Vec<(&str, Whole)> = own
         .map(|material| (material.name.as_str(), Whole::of(material)))
         .filter(|(_, whole)| whole.has_highlight())
         .collect();
     if shiny.is_empty() {
         return None;
     }
-    let count = shiny.len().min(plot::svg::SERIES);
-    // Spread over the list.
-    let chosen: Vec<&(&str, Whole)> = (0..count).filter_map(|i| shiny.get(i * shiny.len() / count)).collect();
     let series: Vec<Series<'_>> =
-        chosen.iter().map(|(name, whole)| Series { name: whole.legend(name), brdf: whole }).collect();
-    let left_out = match shiny.len() - count {
+        spread(&shiny).map(|(name, whole)| Series { name: whole.legend(name), brdf: whole }).collect();
+    let left_out = match shiny.len() - series.len() {
         0 => String::new(),
         more => format!(" {more} more materials with a highlight are not shown."),
     };
-    Some(Plot {
-        title: "The scene's materials over the viewing angle".to_owned(),
-        caption: format!("On a logarithmic scale, light at 55°: the diffuse floor and the highlight on it.{left_out}"),
-        svg: plot::curve(&series, Setting { incidence: 55.0, cosine: false, log: false }),
-    })
+    Some(Plot::new(
+        "The scene's materials over the viewing angle",
+        format!("On a logarithmic scale, light at 55°: the diffuse floor and the highlight on it.{left_out}"),
+        plot::curve(&series, Setting { incidence: 55.0, cosine: false, log: true }),
+    ))
+}
+
+/// What a view puts in the place of the scene's materials: the models side by side, what they are made of, and one of
+/// them under several angles.
+fn model_plots(shown: &[Shown<'_>]) -> Vec<Plot> {
+    let setting = Setting { incidence: 55.0, cosine: false, log: true };
+    let named: Vec<_> = shown.iter().filter_map(|shown| Some((shown, shown.lobes?))).collect();
+    let mut plots = Vec::new();
+    let wholes: Vec<_> = named.iter().map(|(shown, _)| (&shown.material.name, Whole::of(&shown.material))).collect();
+    let series: Vec<Series<'_>> =
+        spread(&wholes).map(|(name, whole)| Series { name: (*name).clone(), brdf: whole }).collect();
+    let Some(first) = series.first() else { return plots };
+    plots.push(Plot::new(
+        "Models side by side, light at 55°",
+        "The radius is logarithmic: each ring is ten times the one inside it. The round part is the diffuse floor; what stands \
+         out of it is the highlight.",
+        plot::polar(&series, setting),
+    ));
+    plots.push(Plot::new(
+        format!("Slices of {}", first.name),
+        "One material for four angles of the light, in the plane of incidence: how the highlight grows and moves \
+         towards grazing light.",
+        plot::slices(first, setting),
+    ));
+    let facets: Vec<_> =
+        named.iter().filter_map(|(shown, lobes)| Some((&shown.material.name, Facets::of(lobes).ok()?))).collect();
+    let cuts: Vec<Cut> = spread(&facets).flat_map(|(name, facets)| facets.cuts(name)).collect();
+    if let Some((name, middle)) = facets.get(facets.len() / 2) {
+        plots.push(Plot::new(
+            "The distributions of the facets' normals",
+            "Each to its own peak, on a logarithmic radius: Beckmann's is cut short, GGX has a tail down to the horizon.",
+            plot::distribution(&cuts, true),
+        ));
+        plots.push(Plot {
+            wide: true,
+            ..Plot::new(
+                format!("The terms of {name}"),
+                "What a microfacet lobe is the product of: how many facets face h, which part of them is both lit and seen, \
+                 and how much each reflects.",
+                plot::terms(name, middle),
+            )
+        });
+    }
+    plots
 }
 
 /// Ten lines for the terminal.

@@ -26,6 +26,7 @@ figcaption b{color:var(--ink);font-weight:600}\
 .grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,440px),1fr));gap:30px 28px;margin-top:18px}\
 .plot{border:1px solid var(--line);border-radius:8px;padding:14px 14px 16px;background:var(--paper)}\
 .plot svg{display:block;width:100%;height:auto;margin:6px 0;max-height:600px}\
+.wide{grid-column:1/-1;overflow-x:auto}.wide svg{min-width:720px}\
 .scroll{overflow-x:auto;margin:12px 0 6px;border:1px solid var(--line);border-radius:8px}\
 table{border-collapse:collapse;width:100%;font-size:.92rem}\
 th,td{text-align:left;vertical-align:top;padding:8px 14px;border-bottom:1px solid var(--line)}\
@@ -154,7 +155,8 @@ fn lobes(page: &mut String, plots: &[Plot]) {
     for plot in plots {
         let _ = write!(
             page,
-            "<figure class=\"plot\"><h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n",
+            "<figure class=\"plot{}\"><h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n",
+            if plot.wide { " wide" } else { "" },
             escape(&plot.title),
             plot.svg.inline(),
             prose(&plot.caption)
@@ -231,6 +233,9 @@ fn colour(rgb: [f32; 3]) -> String {
 /// What a material has beside its lobes.
 fn extras(material: &MaterialFacts) -> String {
     let mut text = String::new();
+    if !material.views.is_empty() {
+        let _ = write!(text, "<br><span class=\"soft\">in the view {}</span>", escape(&material.views.join(", ")));
+    }
     if material.ambient != [0.0; 3] {
         let _ = write!(text, "<br><span class=\"soft\">ambient {}</span>", colour(material.ambient));
     }
