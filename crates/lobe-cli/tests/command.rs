@@ -179,7 +179,7 @@ fn a_reader_that_has_seen_enough_is_no_error() {
 #[test]
 fn plots_are_written_whole_and_old_ones_survive_an_error() {
     let folder = tempfile::tempdir().expect("a folder");
-    for kind in ["polar", "compare", "surface", "curve"] {
+    for kind in ["polar", "compare", "surface", "curve", "slices", "terms", "distribution"] {
         let name = format!("{kind}.svg");
         let run = lobe_in(folder.path(), &["plot", "--kind", kind, "--incidence", "60", "-o", &name], b"");
         assert_eq!((run.err.as_str(), run.code), ("", Some(0)));
@@ -194,7 +194,7 @@ fn plots_are_written_whole_and_old_ones_survive_an_error() {
     let run = lobe_in(folder.path(), &["plot", "-o", "no/folder/a.svg"], b"");
     let right = "name a file in a folder that exists and can be written to";
     fails(&run, 4, &format!("no/folder/a.svg: cannot write this: no such file or directory; {right}"));
-    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 4, "no temporary file is left");
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 7, "no temporary file is left");
 }
 
 #[test]
@@ -226,16 +226,48 @@ fn extreme_lobes_can_be_drawn() {
         r#"{"name": "</svg><script>\u0000*_{", "lobes": [{"model": "lambert", "albedo": 1e-300}]}"#,
     ];
     for brdf in brdfs {
-        for kind in ["polar", "surface", "curve"] {
+        for kind in [&["polar"][..], &["polar", "--log"], &["surface"], &["curve"], &["slices"], &["slices", "--log"]] {
             for incidence in ["0", "89.9"] {
-                let arguments = ["plot", "--kind", kind, "--brdf", brdf, "--incidence", incidence, "-o", "a.svg", "-q"];
+                let arguments = ["--brdf", brdf, "--incidence", incidence, "-o", "a.svg", "-q"];
+                let arguments = [&["plot", "--kind"], kind, &arguments].concat();
                 let run = lobe_in(folder.path(), &arguments, b"");
-                assert_eq!((run.err.as_str(), run.code), ("", Some(0)), "{kind} {brdf}");
+                assert_eq!((run.err.as_str(), run.code), ("", Some(0)), "{kind:?} {brdf}");
                 let svg = fs::read_to_string(folder.path().join("a.svg")).expect("a file");
-                assert!(!svg.contains("NaN") && !svg.contains("inf") && !svg.contains("<script"), "{kind} {brdf}");
+                assert!(!svg.contains("NaN") && !svg.contains("inf") && !svg.contains("<script"), "{kind:?} {brdf}");
             }
         }
     }
+}
+
+#[test]
+fn the_terms_of_microfacet_lobes_are_drawn_and_others_have_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let sharp =
+        r#"{"lobes": [{"model": "microfacet", "distribution": "beckmann", "alpha": [1e-4, 1], "masking": "kelemen"}]}"#;
+    let student =
+        r#"{"lobes": [{"model": "microfacet", "distribution": "student-t", "alpha": 1, "fresnel": "lazanyi"}]}"#;
+    for brdf in [sharp, student, "ggx-gold", "ngan:nickel/cook-torrance"] {
+        for kind in [&["terms"][..], &["distribution"], &["distribution", "--log"]] {
+            let arguments = [&["plot", "--kind"], kind, &[brdf, "-o", "a.svg", "-q"]].concat();
+            let run = lobe_in(folder.path(), &arguments, b"");
+            assert_eq!((run.err.as_str(), run.code), ("", Some(0)), "{kind:?} {brdf}");
+            let svg = fs::read_to_string(folder.path().join("a.svg")).expect("a file");
+            assert!(!svg.contains("NaN") && !svg.contains("inf") && svg.len() > 5000, "{kind:?} {brdf}");
+            // One curve for each width, and three channels where they differ.
+            let curves = |class: &str| svg.matches(&format!("<path class=\"{class}\"")).count();
+            assert_eq!(curves("c1") > 0, brdf == sharp || kind == ["terms"], "{kind:?} {brdf}");
+            assert_eq!(curves("green") > 0, brdf == "ggx-gold" && kind == ["terms"], "{kind:?} {brdf}");
+        }
+    }
+    let models = "microfacet, torrance-sparrow, ashikhmin-premoze-shirley, cook-torrance, blinn-1977";
+    for kind in ["terms", "distribution"] {
+        let run = lobe(&["plot", "--kind", kind, "glossy", "-o", "a.svg"], "");
+        fails(&run, 2, &format!("`glossy` has no lobe that is made of D, G and F; the models that are: {models}"));
+    }
+    let run = lobe(&["plot", "--kind", "slices", "paper", "glossy"], "");
+    fails(&run, 2, "2 BRDFs; --kind slices draws at most 1");
+    let run = lobe(&["plot", "--kind", "terms", "--log"], "");
+    fails(&run, 2, "--log is not for --kind terms; leave it out, or take --kind polar, slices or distribution");
 }
 
 #[test]
@@ -440,6 +472,7 @@ fn a_report_is_one_page_that_needs_nothing_else() {
 
     let facts = fs::read_to_string(folder.path().join("out/report.json")).expect("a file");
     let facts: serde_json::Value = serde_json::from_str(&facts).expect("JSON");
+    assert_eq!(facts["materials"].as_array().map(Vec::len), Some(1));
     assert_eq!(facts["materials"][0]["gains_energy"], true);
     assert_eq!(facts["materials"][0]["albedo"].as_array().map(Vec::len), Some(3));
     let checks = facts["checks"].as_array().expect("a list");
@@ -452,6 +485,27 @@ fn a_report_is_one_page_that_needs_nothing_else() {
     assert_eq!(lobe_in(folder.path(), &arguments, b"").code, Some(3));
     assert_eq!(fs::read(folder.path().join("out/index.html")).expect("a page"), old);
     assert_eq!(fs::read_dir(folder.path().join("out")).expect("a folder").count(), 2);
+}
+
+#[test]
+fn a_report_lists_and_draws_what_a_view_puts_in_the_place_of_a_material() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write_scene(folder.path());
+    let scene = r#"{"obj": "s.obj", "views": [{"name": "a"}, {"name": "b", "materials": {"*": "ggx-gold"}},
+                    {"name": "c", "materials": {"glow": "ggx-gold"}}]}"#;
+    fs::write(folder.path().join("s.json"), scene).expect("written");
+    let arguments = ["report", "s.json", "-o", "out", "--width", "64", "--samples", "1", "-q"];
+    assert_eq!(lobe_in(folder.path(), &arguments, b"").code, Some(0));
+    let facts = fs::read_to_string(folder.path().join("out/report.json")).expect("a file");
+    let facts: serde_json::Value = serde_json::from_str(&facts).expect("JSON");
+    let materials = facts["materials"].as_array().expect("a list");
+    let names: Vec<_> = materials.iter().map(|material| (&material["name"], &material["views"])).collect();
+    let views = serde_json::json!(["b", "c"]);
+    assert_eq!(names, [(&"glow".into(), &serde_json::Value::Null), (&"ggx-gold".into(), &views)]);
+    let page = fs::read_to_string(folder.path().join("out/index.html")).expect("a page");
+    for title in ["Models side by side", "Slices of ggx-gold", "The distributions of", "The terms of ggx-gold"] {
+        assert!(page.contains(title), "{title}");
+    }
 }
 
 #[test]

@@ -59,6 +59,12 @@ impl<R: Real, B: Brdf<R>> Brdf<R> for Exchanged<B> {
 /// horizon. Sixteen-point Gauss-Legendre panels are halved until two results agree to 1e-7 or 2²¹ points are spent:
 /// see [`Albedo::error`].
 pub fn directional_albedo<B: Brdf<f64> + ?Sized>(brdf: &B, v: Vec3<f64>) -> Albedo {
+    directional_albedo_to(AGREEMENT, brdf, v)
+}
+
+/// [`directional_albedo`], but the panels are halved only until two results agree to `agreement`, an absolute difference of
+/// albedos: a lobe with edges, such as those of V-cavities, takes a quarter of the points for each power of two less.
+pub fn directional_albedo_to<B: Brdf<f64> + ?Sized>(agreement: f64, brdf: &B, v: Vec3<f64>) -> Albedo {
     let mut coarse = integrate(brdf, v, 1);
     let mut error = f64::INFINITY;
     for refinement in [2, 4, 8, 16] {
@@ -66,7 +72,7 @@ pub fn directional_albedo<B: Brdf<f64> + ?Sized>(brdf: &B, v: Vec3<f64>) -> Albe
         error = largest(fine - coarse);
         coarse = fine;
         // A NaN ends it too: finer points would not mend it.
-        if error.partial_cmp(&AGREEMENT) != Some(core::cmp::Ordering::Greater) {
+        if error.partial_cmp(&agreement) != Some(core::cmp::Ordering::Greater) {
             break;
         }
     }

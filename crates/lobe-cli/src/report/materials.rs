@@ -1,7 +1,7 @@
 //! The scene's materials: what they are made of, and how much light they reflect.
 
 use lobe::{Brdf, Rgb, Vec3};
-use lobe_energy::{Albedo, Exchanged, directional_albedo};
+use lobe_energy::{Albedo, Exchanged, directional_albedo_to};
 use lobe_scene::{LobeRecord, Material, Scene, View};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -152,14 +152,17 @@ fn one(shown: &Shown<'_>) -> MaterialFacts {
     let can_be_integrated = whole.0.iter().all(|lobe| lobe.reference.is_some());
     let at_all_angles = |brdf: &dyn Brdf<f64>| -> Vec<[f64; 3]> {
         let directions = TRIED.map(|angle| angle.to_radians().sin_cos()).map(|(sin, cos)| Vec3::new(sin, 0.0, cos));
-        let albedos: Vec<Albedo> = directions.iter().map(|&v| directional_albedo(brdf, v)).collect();
+        let albedos: Vec<Albedo> =
+            directions.iter().map(|&v| directional_albedo_to(QUADRATURE_ERROR, brdf, v)).collect();
         // One that has not converged, or is NaN, is no figure to show.
         let good = albedos.iter().all(|albedo| albedo.error <= QUADRATURE_ERROR);
         if good { albedos.iter().map(|albedo| (albedo.value + mirror).into()).collect() } else { Vec::new() }
     };
-    let (seen, reflected) = match can_be_integrated {
-        true => (at_all_angles(&whole), at_all_angles(&Exchanged(&whole))),
-        false => (Vec::new(), Vec::new()),
+    let seen = if can_be_integrated { at_all_angles(&whole) } else { Vec::new() };
+    let reflected = match shown.lobes {
+        _ if !can_be_integrated => Vec::new(),
+        Some(lobes) if lobes.is_reciprocal() => seen.clone(),
+        _ => at_all_angles(&Exchanged(&whole)),
     };
     let known = !seen.is_empty() && !reflected.is_empty();
     let highest = [("seen from", &seen), ("light from", &reflected)]

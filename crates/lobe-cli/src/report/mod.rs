@@ -269,6 +269,16 @@ fn model_plots(shown: &[Shown<'_>]) -> Vec<Plot> {
             "Each to its own peak, on a logarithmic radius: Beckmann's is cut short, GGX has a tail down to the horizon.",
             plot::distribution(&cuts, true),
         ));
+        let whole = named.iter().find(|(shown, _)| shown.material.name == **name);
+        let whole = whole.map(|(shown, _)| Whole::of(&shown.material));
+        if let Some(brdf) = &whole {
+            let series = Series { name: (*name).clone(), brdf };
+            plots.push(Plot::new(
+                format!("{name} in three dimensions, light at 55°"),
+                "The lobe of the microfacets, with the outer ring at its peak.",
+                plot::surface(&series, Setting { log: false, ..setting }),
+            ));
+        }
         plots.push(Plot {
             wide: true,
             ..Plot::new(
