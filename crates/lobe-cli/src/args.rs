@@ -240,8 +240,8 @@ pub(crate) struct PlotArgs {
     /// What to draw
     #[arg(long, value_enum, default_value = "polar")]
     pub(crate) kind: Kind,
-    /// The BRDFs: JSON, @FILE, a preset or a measured one such as ngan:pvc/ward. `surface`, `slices` and `terms` draw one,
-    /// `compare` none, the others up to six
+    /// The BRDFs: JSON, @FILE, a preset or a measured one such as ngan:pvc/ward. `surface`, `slices` and `terms` draw
+    /// one, `compare` none, the others up to six
     #[arg(value_name = "BRDF")]
     pub(crate) specs: Vec<String>,
     /// One more BRDF; may be given several times
@@ -250,7 +250,7 @@ pub(crate) struct PlotArgs {
     /// The angle between the light and the normal, in degrees, from 0 to 89.9
     #[arg(long, default_value_t = 55.0, allow_negative_numbers = true, value_parser = parse_incidence)]
     pub(crate) incidence: f64,
-    /// Draw f_r times the cosine of the outgoing direction, as a goniometer would see it (polar, curve, slices and surface)
+    /// Draw f_r times the cosine of the outgoing direction, as a goniometer sees it (polar, curve, slices and surface)
     #[arg(long)]
     pub(crate) cosine: bool,
     /// A logarithmic scale: rings or lines for decades (polar, slices and distribution; `curve` has one anyway)

@@ -62,8 +62,9 @@ pub fn directional_albedo<B: Brdf<f64> + ?Sized>(brdf: &B, v: Vec3<f64>) -> Albe
     directional_albedo_to(AGREEMENT, brdf, v)
 }
 
-/// [`directional_albedo`], but the panels are halved only until two results agree to `agreement`, an absolute difference of
-/// albedos: a lobe with edges, such as those of V-cavities, takes a quarter of the points for each power of two less.
+/// [`directional_albedo`], but the panels are halved only until two results agree to `agreement`, an absolute difference
+/// of albedos. Each halving that is saved is three quarters of the points: a lobe with edges, such as those of
+/// V-cavities, takes many.
 pub fn directional_albedo_to<B: Brdf<f64> + ?Sized>(agreement: f64, brdf: &B, v: Vec3<f64>) -> Albedo {
     let mut coarse = integrate(brdf, v, 1);
     let mut error = f64::INFINITY;

@@ -25,8 +25,8 @@ pub type AnyTerms = Box<dyn Terms<f64>>;
 pub trait Terms<R: Number>: Send + Sync {
     /// `D(h)` in sr⁻¹ for a unit vector `h` with `h.z ≥ 0`; `∫ D(h) (n·h) dω = 1`.
     fn d(&self, h: Vec3<R>) -> R;
-    /// `G(l, v)`, the part of the facets that is both lit and seen, for unit vectors above the horizon. Where `l` is the
-    /// normal and `G` is one of Smith's, this is `G₁(v)`.
+    /// `G(l, v)`, the part of the facets that is both lit and seen, for unit vectors above the horizon. Where `l` is
+    /// the normal and `G` is one of Smith's, this is `G₁(v)`.
     fn g(&self, l: Vec3<R>, v: Vec3<R>) -> R;
     /// `F(θ)` for the angle between the light and the normal of the facet, by its cosine.
     fn f(&self, cos: R) -> Rgb<R>;

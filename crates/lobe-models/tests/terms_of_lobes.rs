@@ -3,10 +3,13 @@
 use lobe::Vec3;
 use lobe_models::{Lobe, Value, model, models};
 
+/// A model, its parameters, and the factor on `D F G/(4 (n·l)(n·v))`.
+type Case<'a> = (&'a str, &'a [(&'a str, Value)], f64);
+
 #[test]
 fn d_f_g_make_the_lobe() -> Result<(), Box<dyn std::error::Error>> {
     let colour = Value::Colour([0.9, 0.5, 0.25]);
-    let cases: &[(&str, &[(&str, Value)], f64)] = &[
+    let cases: &[Case<'_>] = &[
         ("microfacet", &[("alpha", Value::Widths([0.3, 0.2])), ("f0", colour)], 1.0),
         (
             "microfacet",

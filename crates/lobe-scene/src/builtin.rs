@@ -2,8 +2,8 @@
 //!
 //! It shows what a lecture on local illumination shows, in the views `overview`, `exponent` (the same sphere with
 //! `q` = 1, 4, 16, 64, 256, 1024), `light` (the same sphere lit from five directions), `materials` (diffuse, glossy and
-//! mirror-like), `smooth-flat` (one mesh of 20,160 triangles with smooth and with flat shading) and `models` (microfacet
-//! metals from rough to smooth, a plastic of glTF and three measured materials).
+//! mirror-like), `smooth-flat` (one mesh of 20,160 triangles with smooth and with flat shading) and `models`
+//! (microfacet metals from rough to smooth, a plastic of glTF and three measured materials).
 //!
 //! The files are in `assets/`, made by the example `make_assets`.
 

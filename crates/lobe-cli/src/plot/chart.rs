@@ -110,7 +110,7 @@ impl Chart {
         }
         let step = match self.angles.1 - self.angles.0 {
             ..=10 => 1,
-            ..=30 => 5,
+            11..=30 => 5,
             _ => 15,
         };
         for angle in (self.angles.0..=self.angles.1).step_by(step as usize) {

@@ -1,5 +1,5 @@
-//! The value over the angle of the viewer: on a logarithmic scale, what a polar plot hides at the foot of a lobe; and in
-//! slices, one for each of some angles of the light.
+//! The value over the angle of the viewer: on a logarithmic scale, what a polar plot hides at the foot of a lobe; and
+//! in slices, one for each of some angles of the light.
 
 use super::chart::{Chart, Scale};
 use super::svg::{Anchor, Svg, label};

@@ -29,8 +29,8 @@ pub(crate) fn polar(series: &[Series<'_>], setting: Setting) -> Svg {
     svg
 }
 
-/// Draws `D(θ_h)` on both sides of the normal, each to its own peak, as Ashikhmin, Premože and Shirley draw their `p(h)`:
-/// that is `D` over its integral, and so the same curve.
+/// Draws `D(θ_h)` on both sides of the normal, each to its own peak, as Ashikhmin, Premože and Shirley draw their
+/// `p(h)`: that is `D` over its integral, and so the same curve.
 pub(crate) fn distribution(cuts: &[Cut], log: bool) -> Svg {
     let profiles: Vec<Vec<(f64, f64)>> = cuts
         .iter()

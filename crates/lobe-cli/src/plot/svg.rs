@@ -43,7 +43,8 @@ const STYLE: &str = "\
 .lobe-plot .mesh{fill:none;stroke:#0b2f50;stroke-opacity:.55}\
 .lobe-plot .ground{fill:#efefef}.lobe-plot .below{fill:#e6e6e6}\
 .lobe-plot .c0,.lobe-plot .c1,.lobe-plot .c2,.lobe-plot .c3,.lobe-plot .c4,.lobe-plot .c5,\
-.lobe-plot .red,.lobe-plot .green,.lobe-plot .blue{fill:none;stroke-width:2.2;stroke-linejoin:round;stroke-linecap:round}\
+.lobe-plot .red,.lobe-plot .green,.lobe-plot .blue\
+{fill:none;stroke-width:2.2;stroke-linejoin:round;stroke-linecap:round}\
 .lobe-plot .wide{stroke-width:6;stroke-opacity:.45}.lobe-plot .fill{stroke:none;fill-opacity:.1}\
 .lobe-plot .c0{stroke:#0067a5}.lobe-plot .c1{stroke:#c8500a;stroke-dasharray:9 5}\
 .lobe-plot .c2{stroke:#00805a;stroke-dasharray:2 5}.lobe-plot .c3{stroke:#9c3f8c;stroke-dasharray:11 4 2 4}\

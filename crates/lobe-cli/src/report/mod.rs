@@ -250,8 +250,8 @@ fn model_plots(shown: &[Shown<'_>]) -> Vec<Plot> {
     let Some(first) = series.first() else { return plots };
     plots.push(Plot::new(
         "Models side by side, light at 55°",
-        "The radius is logarithmic: each ring is ten times the one inside it. The round part is the diffuse floor; what stands \
-         out of it is the highlight.",
+        "The radius is logarithmic: each ring is ten times the one inside it. The round part is the diffuse floor; \
+         what stands out of it is the highlight.",
         plot::polar(&series, setting),
     ));
     plots.push(Plot::new(
@@ -266,7 +266,7 @@ fn model_plots(shown: &[Shown<'_>]) -> Vec<Plot> {
     if let Some((name, middle)) = facets.get(facets.len() / 2) {
         plots.push(Plot::new(
             "The distributions of the facets' normals",
-            "Each to its own peak, on a logarithmic radius: Beckmann's is cut short, GGX has a tail down to the horizon.",
+            "Each to its own peak, on a logarithmic radius. Beckmann's ends early, GGX has a tail to the horizon.",
             plot::distribution(&cuts, true),
         ));
         let whole = named.iter().find(|(shown, _)| shown.material.name == **name);
@@ -283,8 +283,8 @@ fn model_plots(shown: &[Shown<'_>]) -> Vec<Plot> {
             wide: true,
             ..Plot::new(
                 format!("The terms of {name}"),
-                "What a microfacet lobe is the product of: how many facets face h, which part of them is both lit and seen, \
-                 and how much each reflects.",
+                "What a microfacet lobe is the product of: how many facets face h, which part of them is both lit and \
+                 seen, and how much each reflects.",
                 plot::terms(name, middle),
             )
         });

@@ -26,7 +26,7 @@ figcaption b{color:var(--ink);font-weight:600}\
 .grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,440px),1fr));gap:30px 28px;margin-top:18px}\
 .plot{border:1px solid var(--line);border-radius:8px;padding:14px 14px 16px;background:var(--paper)}\
 .plot svg{display:block;width:100%;height:auto;margin:6px 0;max-height:600px}\
-.wide{grid-column:1/-1;overflow-x:auto}.wide svg{min-width:720px}\
+.whole{grid-column:1/-1;overflow-x:auto}.whole svg{min-width:720px}\
 .scroll{overflow-x:auto;margin:12px 0 6px;border:1px solid var(--line);border-radius:8px}\
 table{border-collapse:collapse;width:100%;font-size:.92rem}\
 th,td{text-align:left;vertical-align:top;padding:8px 14px;border-bottom:1px solid var(--line)}\
@@ -34,7 +34,8 @@ tbody tr:last-child td,tbody tr:last-child th{border-bottom:0}\
 thead th{font-weight:600;color:var(--soft);background:var(--card);white-space:nowrap}\
 tbody th{font-weight:600;white-space:nowrap}\
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}\
-td.where{min-width:52ch;font-size:.85rem;color:var(--soft)}td.verdict{min-width:26ch}td.lobes{min-width:34ch}#materials tbody th{white-space:normal;min-width:11ch;overflow-wrap:anywhere}\
+td.where{min-width:52ch;font-size:.85rem;color:var(--soft)}td.verdict{min-width:26ch}td.lobes{min-width:34ch}\
+#materials tbody th{white-space:normal;min-width:11ch;overflow-wrap:anywhere}\
 code{font-family:ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;font-size:.9em}\
 pre{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:12px 14px;overflow-x:auto;margin:10px 0}\
 .tag{display:inline-block;font-size:.8rem;font-weight:600;border-radius:99px;padding:1px 10px;white-space:nowrap}\
@@ -156,7 +157,7 @@ fn lobes(page: &mut String, plots: &[Plot]) {
         let _ = write!(
             page,
             "<figure class=\"plot{}\"><h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n",
-            if plot.wide { " wide" } else { "" },
+            if plot.wide { " whole" } else { "" },
             escape(&plot.title),
             plot.svg.inline(),
             prose(&plot.caption)

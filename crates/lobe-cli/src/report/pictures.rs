@@ -113,9 +113,9 @@ fn caption(view: &View, built_in: bool) -> String {
              interpolated: the same triangles, until one looks at the outline."
         }
         "models" => {
-            "Microfacet and measured materials. In the row gold, a GGX with the Fresnel term of the metal, with the widths \
-             α = 0.6, 0.4, 0.25, 0.15, 0.08 and 0.04. Behind it, as fits to measurements: dark red paint, nickel and, on the knots, \
-             blue metallic paint; in the middle the plastic of glTF."
+            "Microfacet and measured materials. In the row gold, a GGX with the Fresnel term of the metal, with the \
+             widths α = 0.6, 0.4, 0.25, 0.15, 0.08 and 0.04. Behind it, as fits to measurements: dark red paint, nickel \
+             and, on the knots, blue metallic paint; in the middle the plastic of glTF."
         }
         _ => "",
     };
