@@ -35,7 +35,7 @@ thead th{font-weight:600;color:var(--soft);background:var(--card);white-space:no
 tbody th{font-weight:600;white-space:nowrap}\
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}\
 td.where{min-width:52ch;font-size:.85rem;color:var(--soft)}td.verdict{min-width:26ch}td.lobes{min-width:34ch}\
-#materials tbody th{white-space:normal;min-width:11ch;overflow-wrap:anywhere}\
+#materials tbody th{white-space:normal;min-width:14ch;overflow-wrap:anywhere}\
 code{font-family:ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;font-size:.9em}\
 pre{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:12px 14px;overflow-x:auto;margin:10px 0}\
 .tag{display:inline-block;font-size:.8rem;font-weight:600;border-radius:99px;padding:1px 10px;white-space:nowrap}\
