@@ -48,7 +48,7 @@ pub const FUNCTIONS: &[Function] = &[
         name: "erfc",
         allowed_ulps: 6.0,
         f32: |x| Real::erfc(x),
-        exact: |x| if x >= 9.19 { 0.0 } else { libm::erfc(x) },
+        exact: |x| if x >= 9.1875 { 0.0 } else { libm::erfc(x) },
     },
     Function { name: "sqrt", allowed_ulps: 0.5, f32: |x| Real::sqrt(x), exact: libm::sqrt },
     Function { name: "recip", allowed_ulps: 0.5, f32: |x| Real::recip(x), exact: |x| 1.0 / x },

@@ -127,7 +127,7 @@ pub trait Real:
     fn atan2(self, x: Self) -> Self;
     /// The complementary error function, `2/√π ∫ exp(−t²) dt` from `self` to infinity.
     ///
-    /// In `f32`: within 6 ulp, and 0 from 9.19 on, where the smallest normal number is reached.
+    /// In `f32`: within 6 ulp, and 0 from 9.1875 on, where the smallest normal number is reached.
     fn erfc(self) -> Self;
 
     /// `eˣ`, as `2^(x log₂ e)`: the relative error is that of [`exp2`](Self::exp2) and `2u |x|`.
