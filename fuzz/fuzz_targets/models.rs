@@ -15,6 +15,12 @@ fn value(parameter: &Parameter, bits: &mut Bits<'_>) -> Value {
         Kind::Colour { max } => Value::Colour(std::array::from_fn(|_| between(0.0, max))),
         Kind::Number { min, max } => Value::Number(between(min, max)),
         Kind::Widths => Value::Widths(std::array::from_fn(|_| between(1e-4, 1.0))),
+        Kind::Table => {
+            let mut table = std::array::from_fn(|_| between(0.0, 1e6));
+            // Not all 0.
+            table[0] = table[0].max(0.01);
+            Value::Table(table)
+        }
         Kind::Choice(words) => Value::Choice(words[usize::from(bits.byte()) % words.len()]),
     }
 }

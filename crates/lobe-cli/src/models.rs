@@ -87,6 +87,7 @@ fn to_json(model: &Model) -> Value {
             let domain = match parameter.kind {
                 Kind::Colour { max } => json!({"kind": "colour", "min": 0.0, "max": max}),
                 Kind::Number { min, max } => json!({"kind": "number", "min": min, "max": max}),
+                Kind::Table => json!({"kind": "table", "numbers": lobe_models::TABLE, "min": 0.0, "max": 1e6}),
                 Kind::Widths => json!({"kind": "widths", "min": 1e-4, "max": 1.0}),
                 Kind::Choice(words) => json!({"kind": "choice", "words": words}),
             };

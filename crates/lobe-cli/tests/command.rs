@@ -259,7 +259,8 @@ fn the_terms_of_microfacet_lobes_are_drawn_and_others_have_none() {
             assert_eq!(curves("green") > 0, brdf == "ggx-gold" && kind == ["terms"], "{kind:?} {brdf}");
         }
     }
-    let models = "microfacet, torrance-sparrow, ashikhmin-premoze-shirley, cook-torrance, blinn-1977";
+    let models = "microfacet, torrance-sparrow, ashikhmin-premoze-shirley, tabulated-facets, cook-torrance, \
+                  blinn-1977";
     for kind in ["terms", "distribution"] {
         let run = lobe(&["plot", "--kind", kind, "glossy", "-o", "a.svg"], "");
         fails(&run, 2, &format!("`glossy` has no lobe that is made of D, G and F; the models that are: {models}"));
@@ -322,6 +323,7 @@ fn eval_takes_every_model() {
                 lobe_models::Kind::Number { min, max } => serde_json::json!(min + (max - min) * 0.125),
                 lobe_models::Kind::Colour { max } => serde_json::json!(0.5 * max),
                 lobe_models::Kind::Widths => serde_json::json!([0.25, 0.5]),
+                lobe_models::Kind::Table => serde_json::json!(vec![1.0; lobe_models::TABLE]),
                 lobe_models::Kind::Choice(words) => serde_json::json!(words[0]),
             };
         }

@@ -177,7 +177,8 @@ impl Lobe {
     #[must_use]
     pub fn description(&self) -> String {
         let shaping = self.values().filter(|(parameter, value)| {
-            !matches!(value, Value::Colour(_)) && parameter.default.is_none_or(|default| default != *value)
+            !matches!(value, Value::Colour(_) | Value::Table(_))
+                && parameter.default.is_none_or(|default| default != *value)
         });
         let parts = shaping.map(|(parameter, value)| format!(" {}={}", parameter.name, value.bare()));
         std::iter::once(self.model.name.to_owned()).chain(parts).collect()

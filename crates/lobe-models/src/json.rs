@@ -22,7 +22,7 @@ pub const MAX_LOBES: usize = 1000;
 static WEIGHT: Parameter = Parameter::reflectance("weight", "what the whole lobe is multiplied with");
 
 /// More numbers than any parameter has.
-const MAX_NUMBERS: usize = 16;
+const MAX_NUMBERS: usize = 32;
 
 /// What is wrong in a text, where, and what would be right.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -243,6 +243,10 @@ impl Raw {
                 _ => return Err(wrong_count(parameter, list.len())),
             },
             (Kind::Number { .. }, Self::Number(x)) => Value::Number(*x),
+            (Kind::Table, Self::List(list)) => match list[..].try_into() {
+                Ok(table) => Value::Table(table),
+                Err(_) => return Err(wrong_count(parameter, list.len())),
+            },
             (Kind::Choice(words), Self::Word(word)) => match words.iter().find(|known| *known == word) {
                 Some(own) => Value::Choice(own),
                 None => return Err(wrong(parameter, &format!("`{word}`"))),
@@ -275,8 +279,9 @@ fn wrong(parameter: &Parameter, what: &str) -> String {
 
 fn wrong_count(parameter: &Parameter, count: usize) -> String {
     let right = match parameter.kind {
-        Kind::Colour { .. } => "a number, or [r, g, b]",
-        _ => "a number, or [ax, ay]",
+        Kind::Colour { .. } => "a number, or [r, g, b]".to_owned(),
+        Kind::Table => parameter.domain(),
+        _ => "a number, or [ax, ay]".to_owned(),
     };
     let count = if count > MAX_NUMBERS { format!("more than {MAX_NUMBERS}") } else { count.to_string() };
     format!("`{}` has {count} numbers; {right}", parameter.name)
@@ -413,7 +418,7 @@ impl Visitor<'_> for NumberOf<'_> {
         if let Some(parameter) = self.parameter {
             let alone = Raw::Number(value).value(parameter);
             // What takes no list says so when the list is whole.
-            if !matches!(parameter.kind, Kind::Number { .. } | Kind::Choice(_)) {
+            if !matches!(parameter.kind, Kind::Number { .. } | Kind::Table | Kind::Choice(_)) {
                 alone.map_err(E::custom)?;
             }
         }
@@ -434,6 +439,7 @@ impl Serialize for Value {
             Self::Number(x) => x.serialize(serializer),
             Self::Widths([x, y]) if x == y => x.serialize(serializer),
             Self::Widths(a) => a.serialize(serializer),
+            Self::Table(t) => t.serialize(serializer),
             Self::Choice(word) => word.serialize(serializer),
         }
     }

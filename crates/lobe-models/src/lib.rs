@@ -47,7 +47,7 @@ pub use json::{JsonError, MAX_LOBES};
 pub use material::Material;
 pub use names::nearest;
 pub use number::{AnyBrdf, Number};
-pub use parameter::{Error, Kind, Parameter, Value};
+pub use parameter::{Error, Kind, Parameter, TABLE, Value};
 pub use presets::{PRESETS, preset};
 pub use reader::Reader;
 pub use terms::{AnyTerms, Terms};

@@ -5,6 +5,11 @@ use std::fmt;
 /// The smallest and the largest width α of a microfacet distribution.
 pub(crate) const ALPHA: (f64, f64) = (1e-4, 1.0);
 
+/// How many values a table has: at 0°, 5° … 90° from the normal.
+pub const TABLE: usize = 19;
+/// The largest value of a table, and the least that its largest may be: its integral is a factor in `f32`.
+const TABLE_RANGE: (f64, f64) = (1e6, 1e-3);
+
 /// A parameter of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
@@ -35,6 +40,9 @@ pub enum Kind {
     },
     /// A width α of a distribution, or `[αx, αy]`: from 1e-4 to 1.
     Widths,
+    /// A distribution of the angle to the normal, in any unit: [`TABLE`] numbers at equal steps from 0° to 90°, from 0 to
+    /// 1e6, the largest at least 1e-3.
+    Table,
     /// One of some words.
     Choice(&'static [&'static str]),
 }
@@ -48,6 +56,8 @@ pub enum Value {
     Number(f64),
     /// `[αx, αy]`.
     Widths([f64; 2]),
+    /// Numbers at equal steps of an angle.
+    Table([f64; TABLE]),
     /// A word.
     Choice(&'static str),
 }
@@ -105,6 +115,9 @@ impl Parameter {
             (Kind::Colour { max }, Value::Colour(c)) => c.iter().all(|&x| inside(x, 0.0, max)),
             (Kind::Number { min, max }, Value::Number(x)) => inside(x, min, max),
             (Kind::Widths, Value::Widths(a)) => a.iter().all(|&x| inside(x, ALPHA.0, ALPHA.1)),
+            (Kind::Table, Value::Table(t)) => {
+                t.iter().all(|&x| inside(x, 0.0, TABLE_RANGE.0)) && t.iter().any(|&x| x >= TABLE_RANGE.1)
+            }
             (Kind::Choice(words), Value::Choice(word)) => match words.iter().find(|w| **w == word) {
                 Some(own) => return Ok(Value::Choice(own)),
                 None => false,
@@ -143,6 +156,10 @@ impl Parameter {
             Kind::Colour { max } => format!("a colour from 0 to {max}"),
             Kind::Number { min, max } => format!("a number from {min} to {max}"),
             Kind::Widths => format!("a width from {} to {}, or two", ALPHA.0, ALPHA.1),
+            Kind::Table => format!(
+                "{TABLE} numbers from 0 to {}, at 0°, 5° … 90°, the largest at least {}",
+                TABLE_RANGE.0, TABLE_RANGE.1
+            ),
             Kind::Choice(words) => format!("one of {}", words.join(", ")),
         }
     }
@@ -158,6 +175,7 @@ impl Value {
             Self::Number(x) => x.to_string(),
             Self::Widths([x, y]) if x == y => x.to_string(),
             Self::Colour([r, g, b]) if r == g && g == b => r.to_string(),
+            Self::Table(_) => "…".to_owned(),
             other => other.to_string(),
         }
     }
@@ -170,6 +188,7 @@ impl fmt::Display for Value {
             Self::Number(x) => write!(f, "{x:?}"),
             Self::Widths([x, y]) if x == y => write!(f, "{x:?}"),
             Self::Widths(a) => write!(f, "{a:?}"),
+            Self::Table(t) => write!(f, "{t:?}"),
             Self::Choice(word) => write!(f, "`{word}`"),
         }
     }

@@ -1,7 +1,7 @@
 //! What a constructor sees of the parameters.
 
 use crate::number::Number;
-use crate::parameter::{Parameter, Value};
+use crate::parameter::{Parameter, TABLE, Value};
 use lobe::{Alpha, Rgb, Shininess};
 use std::marker::PhantomData;
 
@@ -60,6 +60,13 @@ impl<'a, R: Number> Reader<'a, R> {
             return (Alpha(R::from_f64(1e-4)), Alpha(R::from_f64(1e-4)));
         };
         (Alpha(R::from_f64(x)), Alpha(R::from_f64(y)))
+    }
+
+    /// A table.
+    #[must_use]
+    pub fn table(&self, name: &str) -> [R; TABLE] {
+        let Some(Value::Table(t)) = self.value(name) else { return [R::from_f64(0.0); TABLE] };
+        t.map(R::from_f64)
     }
 
     /// A word.

@@ -1,7 +1,7 @@
 //! What `Brdf` promises, for every model of the catalogue.
 
 use lobe::Vec3;
-use lobe_models::{Kind, Lobe, Model, Value, models};
+use lobe_models::{Kind, Lobe, Model, TABLE, Value, models};
 use lobe_verify::strategies::{direction, pair_above, reflectance, shininess};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -29,6 +29,16 @@ fn value(name: &str, kind: Kind) -> BoxedStrategy<Value> {
                 }),
             ]
             .boxed()
+        }
+        Kind::Table => {
+            let number = || prop_oneof![1 => Just(0.0), 3 => 0.0..1.0_f64, 1 => 0.0..1e6_f64];
+            // One that is not 0, anywhere.
+            (proptest::collection::vec(number(), TABLE), 0..TABLE, 0.01..1e6_f64)
+                .prop_map(|(mut list, at, most)| {
+                    list[at] = most;
+                    Value::Table(std::array::from_fn(|i| rounded(list[i], 0.0, 1e6)))
+                })
+                .boxed()
         }
         Kind::Choice(words) => proptest::sample::select(words.to_vec()).prop_map(Value::Choice).boxed(),
     }

@@ -23,6 +23,11 @@ fn d_f_g_make_the_lobe() -> Result<(), Box<dyn std::error::Error>> {
             1.0,
         ),
         ("torrance-sparrow", &[("c", Value::Number(0.3)), ("ior", Value::Number(1.5))], 1.0),
+        (
+            "tabulated-facets",
+            &[("table", Value::Table(std::array::from_fn(|i| [3.0, 1.0, 2.0][i % 3]))), ("f0", colour)],
+            1.0,
+        ),
         ("ashikhmin-premoze-shirley", &[("width", Value::Number(0.3)), ("f0", colour)], 1.0),
         (
             "cook-torrance",
@@ -48,6 +53,6 @@ fn d_f_g_make_the_lobe() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     let with_terms: Vec<_> = models().filter(|model| model.has_terms()).map(|model| model.name).collect();
-    assert!(cases.iter().all(|(name, ..)| with_terms.contains(name)) && with_terms.len() == 5, "{with_terms:?}");
+    assert!(cases.iter().all(|(name, ..)| with_terms.contains(name)) && with_terms.len() == 6, "{with_terms:?}");
     Ok(())
 }

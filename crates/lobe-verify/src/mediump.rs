@@ -164,6 +164,7 @@ fn rounded(value: Value, kind: Kind) -> Value {
         (Value::Colour(c), Kind::Colour { max }) => Value::Colour(c.map(|x| near(x, 0.0, max))),
         (Value::Number(x), Kind::Number { min, max }) => Value::Number(near(x, min, max)),
         (Value::Widths(w), _) => Value::Widths(w.map(|x| near(x, 1e-4, 1.0))),
+        (Value::Table(t), _) => Value::Table(t.map(|x| near(x, 0.0, 1e6))),
         (value, _) => value,
     }
 }
@@ -256,6 +257,7 @@ mod tests {
                         let numbers = match value {
                             Value::Number(x) => vec![x],
                             Value::Widths(w) => w.to_vec(),
+                            Value::Table(t) => t.to_vec(),
                             Value::Colour(c) => c.to_vec(),
                             Value::Choice(_) => Vec::new(),
                         };

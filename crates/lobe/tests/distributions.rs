@@ -383,3 +383,33 @@ proptest! {
         prop_assert!(error < 4e-6 && table.g1(h) <= 1.0, "G1 {error:e}");
     }
 }
+
+/// Linear pieces have corners, where the quadrature of the table is not at its best.
+#[test]
+fn smiths_function_of_a_drawn_distribution() {
+    let bell = |i: usize| (-(i as f64 / 6.0).powi(2)).exp();
+    let ring = |i: usize| if i == 9 { 1.0 } else { 0.0 };
+    let rough = |i: usize| f64::from([3_u8, 1, 4, 1, 5, 9, 2, 6, 5, 3][i % 10]);
+    let shapes: [&dyn Fn(usize) -> f64; 4] = [&bell, &ring, &rough, &|_| 1.0];
+    let mut worst = 0.0_f64;
+    for shape in shapes {
+        let d = Tabulated::new(std::array::from_fn::<f64, 19, _>(shape));
+        let table = SmithTable::<_, f64>::new(d, Alpha(0.5));
+        for theta_w in [0.0, 0.3, 0.8, 1.2, 1.5] {
+            let w = direction(theta_w, 0.7);
+            let (rings, azimuths) = (18 * 40, 512);
+            let (step, turn) = (FRAC_PI_2 / f64::from(rings), 2.0 * PI / f64::from(azimuths));
+            let mut area = 0.0;
+            for i in 0..rings {
+                let theta = (f64::from(i) + 0.5) * step;
+                let value = d.d(direction(theta, 0.0)) * theta.sin();
+                for j in 0..azimuths {
+                    area += value * w.dot(direction(theta, (f64::from(j) + 0.5) * turn)).max(0.0);
+                }
+            }
+            worst = worst.max(((w.z + table.lambda_cos(w)) / (area * step * turn) - 1.0).abs());
+        }
+    }
+    println!("worst error of (1 + Λ) cos θ: {worst:e}");
+    assert!(worst < 0.02, "{worst:e}");
+}

@@ -123,6 +123,11 @@ impl Variant {
                         Value::Number(if (min..=max).contains(&near) { near } else { inside })
                     }
                     Kind::Widths => Value::Widths([level.alpha; 2]),
+                    Kind::Table => {
+                        // A bell of this width.
+                        let bell = |i: usize| (-(5.0 * i as f64).to_radians().powi(2) / level.alpha.powi(2)).exp();
+                        Value::Table(std::array::from_fn(|i| in_f32(bell(i).max(1e-6))))
+                    }
                     Kind::Choice(words) => {
                         let chosen = self.word.filter(|(name, _)| *name == parameter.name).map(|(_, word)| word);
                         let default = match parameter.default {

@@ -1,8 +1,9 @@
 //! The microfacet models of 1967 to 1981, as their papers have them.
 
 use crate::families::constructors;
-use crate::{AnyBrdf, AnyTerms, Bound, Model, Number, Parameter, Reader, Terms};
-use lobe::distribution::{Beckmann, Distribution, Gaussian, Ggx, Gtr, PhongPower, SmithTable};
+use crate::parameter::TABLE;
+use crate::{AnyBrdf, AnyTerms, Bound, Kind, Model, Number, Parameter, Reader, Terms};
+use lobe::distribution::{Beckmann, Distribution, Gaussian, Ggx, Gtr, PhongPower, SmithTable, Tabulated};
 use lobe::fresnel::{Dielectric, Schlick};
 use lobe::masking::{SmithSeparable, VCavity};
 use lobe::{Alpha, AshikhminPremozeShirley, Blinn1977, CookTorrance, Ior, Microfacet, TorranceSparrow, Vec3};
@@ -80,6 +81,23 @@ pub(super) const MODELS: &[Model] = &[
         build: constructors!(facets: generator),
     },
     Model {
+        name: "tabulated-facets",
+        summary: "facets of any distribution of the angle, given as a table (Ashikhmin, Premože and Shirley 2000)",
+        parameters: &[
+            Parameter {
+                name: "table",
+                kind: Kind::Table,
+                default: None,
+                doc: "p(h) in any unit, linear in between; it is normalised",
+            },
+            F0,
+        ],
+        reciprocal: true,
+        finite: true,
+        bound: Bound::Derived { formula: "2e-5 + 160u × steepest step of the table over D", at: tabulated },
+        build: constructors!(facets: generator_of_table),
+    },
+    Model {
         name: "cook-torrance",
         summary: "Beckmann, V-cavities and the factor 1/π (Cook and Torrance 1981)",
         parameters: &[KS, Parameter::number("m", 1e-4, 1.0, "the root mean square slope"), F0],
@@ -127,6 +145,30 @@ fn blinn_terms(p: &Reader<'_, f64>) -> AnyTerms {
 
 fn blinn_lobe<R: Number>(p: &Reader<'_, R>) -> Blinn1977<Ggx<R>, Schlick<R>, R> {
     Blinn1977::new(p.rgb("ks"), Ggx::new(Alpha(p.number("c"))), Schlick::new(p.rgb("f0")))
+}
+
+/// The type of the lobe: any distribution is one of tables.
+type Table<R> = SmithTable<Tabulated<R, TABLE>, R>;
+
+/// The angle of `h` is off by `8u` of a right angle at most, which is `18 · 8u` steps of the table: so much of the difference of two
+/// neighbours `D` is off by. Next to a 0 of the table that is more than `D` itself.
+fn tabulated(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+    let d = Tabulated::new(p.table("table"));
+    let steepest = d.values().windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+    let value = d.d((l + v).normalize());
+    if value <= f64::from(f32::MIN_POSITIVE) {
+        return f64::INFINITY;
+    }
+    Bound::WORST + 160.0 * steepest / value / 16_777_216.0
+}
+
+fn generator_of_table<R: Number>(p: &Reader<'_, R>) -> Box<dyn Terms<R>> {
+    // Where the nodes of Λ are dense: slopes from a tenth of this to ten times it.
+    let width = Alpha(R::from_f64(0.5));
+    let table: Table<R> = SmithTable::new(Tabulated::new(p.table("table")), width);
+    let lobe: AshikhminPremozeShirley<Table<R>, Schlick<R>> =
+        Microfacet::new(table, SmithSeparable, Schlick::new(p.rgb("f0")));
+    Box::new(lobe)
 }
 
 fn generator<R: Number>(p: &Reader<'_, R>) -> Box<dyn Terms<R>> {

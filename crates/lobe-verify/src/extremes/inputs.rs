@@ -1,7 +1,7 @@
 //! The inputs: a grid of directions and parameters, and random ones.
 
 use lobe::Vec3;
-use lobe_models::{Kind, Lobe, Model, Value};
+use lobe_models::{Kind, Lobe, Model, TABLE, Value};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The smallest cosine that `eval` is promised for; `eval_cos` goes on to the smallest normal number.
@@ -167,6 +167,17 @@ fn grid_values(kind: Kind) -> Vec<Value> {
             }
             all
         }
+        Kind::Table => {
+            const LAST: usize = TABLE - 1;
+            // A constant, a peak, a ring, a rim.
+            let shapes: [fn(usize) -> f64; 4] = [
+                |_| 1.0,
+                |i| [1e6, 1.0].get(i).copied().unwrap_or(1e-3),
+                |i| if i == LAST / 2 { 1.0 } else { 0.0 },
+                |i| if i == LAST { 1e-2 } else { 1e-6 * i as f64 },
+            ];
+            shapes.map(|shape| Value::Table(std::array::from_fn(|i| rounded(shape(i), 0.0, 1e6)))).to_vec()
+        }
         Kind::Choice(words) => words.iter().map(|word| Value::Choice(word)).collect(),
     }
 }
@@ -199,6 +210,14 @@ pub(crate) fn random_value(kind: Kind, random: &mut Random) -> Value {
             let x = random.step(-4.0, 0.0).abs();
             let y = if random.below(2) == 0 { x } else { x * 16_f64.powf(random.between(-1.0, 1.0)) };
             widths(x, y)
+        }
+        Kind::Table => {
+            let falling = random.step(-2.0, 0.0).abs();
+            Value::Table(std::array::from_fn(|i| {
+                let x = if random.below(8) == 0 { 0.0 } else { random.unit() * (-falling * i as f64).exp() };
+                // Not all 0.
+                rounded(if i == 0 { x.max(0.01) } else { x }, 0.0, 1e6)
+            }))
         }
         Kind::Choice(words) => Value::Choice(random.pick(words, "")),
     }
