@@ -21,7 +21,10 @@ use crate::vector::Vec3;
 /// Exact in this sense for every isotropic distribution, and for an anisotropic one whose slopes keep their shape when they are
 /// stretched ([`Ggx`](super::Ggx), [`Beckmann`](super::Beckmann), [`StudentT`](super::StudentT)). For the others with
 /// two widths it is what a stretched copy of the isotropic one would have, an approximation that gets better as they
-/// get sharper.
+/// get sharper: `(1 + Λ) cos θ` is off by at most 8e-6 with the widths 0.02 and 0.08 ([`Gtr`](super::Gtr) with `γ = 1.5`: 5 %), and with widths
+/// up to 1 and aspects up to 16 by 20 % for [`PhongPower`](super::PhongPower), 6 % for
+/// [`Gaussian`](super::Gaussian), 37 % for that `Gtr` (test `a_stretched_table_is_near`). There a BRDF loses or gains
+/// about as much towards the horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmithTable<D, R = f32, const N: usize = 64> {
     distribution: D,
