@@ -40,6 +40,7 @@
 //! | `std` | yes | the square root from `std`; the same bits as without |
 //! | `glam` | yes | `From` and `Into` for `glam::Vec3`, `Vec3A` and `DVec3` |
 //! | `half` | no | the number type `Half`: every operation rounded to binary16 |
+//! | `simd` | no | the number type `number::Wide`: SIMD lanes, the same bits as `f32`; needs Rust 1.89 |
 
 #![no_std]
 #![forbid(unsafe_code)]

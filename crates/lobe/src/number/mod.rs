@@ -14,10 +14,14 @@ pub mod elementary;
 #[cfg(feature = "half")]
 mod half;
 mod single;
+#[cfg(feature = "simd")]
+mod wide;
 
 pub use elementary::Binary32;
 #[cfg(feature = "half")]
 pub use half::Half;
+#[cfg(feature = "simd")]
+pub use wide::{Wide, WideMask};
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
