@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fits the polynomials of `crates/lobe/src/number/elementary.rs` and prints coefficients and bounds.
+"""Fits the polynomials of `crates/lobe/src/number/elementary.rs` and `approximate.rs` and prints coefficients and bounds.
 
     pip install mpmath && python3 tools/minimax.py
 
@@ -127,3 +127,63 @@ cp = 2 / (3 * ln2)
 unit = mp.mpf(2) ** -12
 hi = mp.floor(cp / unit) * unit
 print(f"    2/(3 ln 2) = {mp.nstr(hi, 20)} + {mp.nstr(f32(cp - hi), 12)}")
+
+
+# --- `approximate.rs`: the same functions to 13 and to 10 digits ------------------------------------------------------
+
+for precision, exp2, log2, atan, erfc in [("Fast", 4, 5, 3, 6), ("Coarse", 3, 4, 2, 4)]:
+    fit(
+        f"{precision} exp2: 2^r = P(r)",
+        lambda r: mp.mpf(2) ** r,
+        powers(0, exp2),
+        lambda r: mp.mpf(2) ** -r,
+        "-0.5",
+        "0.5",
+        one_by_one=False,
+    )
+    fit(
+        f"{precision} log2: log2(1 + t) = t P(t)",
+        lambda t: mp.log(1 + t) / t / ln2 if t else 1 / ln2,
+        powers(0, log2),
+        lambda t: t * ln2 / mp.log(1 + t) if t else ln2,
+        mp.mpf(-1) / 3,
+        "0.5",
+        one_by_one=False,
+    )
+    fit(f"{precision} atan2: atan t = t A(t^2)", mp.atan, powers(1, atan, 2), lambda t: 1 / mp.atan(t), tiny, eighth, one_by_one=False)
+    name = f"{precision} erfc: (x + 3) exp(x^2) erfc(x) = P(t), t = (x - 3)/(x + 3)"
+    fit(name, scaled_erfc, powers(0, erfc), lambda t: 1 / scaled_erfc(t), -1, end, one_by_one=False)
+
+fit("log2_1p_div: 2/ln2 atanh(s) = s Q(s^2)", lambda s: 2 / ln2 * mp.atanh(s), powers(1, 2, 2), lambda s: ln2 / 2 / mp.atanh(s), tiny, "0.2", one_by_one=False)
+fit("Fast sin: sin r = r S(r^2)", mp.sin, powers(1, 3, 2), lambda r: 1 / mp.sin(r), tiny, quarter, one_by_one=False)
+fit("Coarse sin: sin r = r S(r^2)", mp.sin, powers(1, 2, 2), lambda r: 1 / mp.sin(r), tiny, quarter, one_by_one=False)
+fit("Fast cos: cos r = C(r^2)", mp.cos, powers(0, 3, 2), lambda r: 1 / mp.cos(r), tiny, quarter, one_by_one=False)
+fit("Coarse cos: cos r = C(r^2)", mp.cos, powers(0, 2, 2), lambda r: 1 / mp.cos(r), tiny, quarter, one_by_one=False)
+
+
+def bits(x):
+    return struct.unpack("I", struct.pack("f", x))[0]
+
+
+def number(i):
+    return struct.unpack("f", struct.pack("I", i & 0xFFFFFFFF))[0]
+
+
+# A first guess from the bits, and a polynomial P of how far off it is: y P(r) with r = x y for 1/x, r = x y^2 for
+# 1/sqrt(x). The start is the one whose r has the smallest ratio of its ends.
+def guess(name, start, starts, power, degrees):
+    def ends(magic):
+        sample = [number(bits(1.0) + (i << 12)) for i in range(1 << 12)]
+        r = [mp.mpf(x) * mp.mpf(start(magic, bits(x))) ** power for x in sample]
+        return min(r), max(r)
+
+    magic = min(starts, key=lambda m: (lambda lo_hi: lo_hi[1] / lo_hi[0])(ends(m)))
+    lo, hi = ends(magic)
+    print(f"{name}: magic {magic:#x}, r from {mp.nstr(lo, 6)} to {mp.nstr(hi, 6)}")
+    for degree in degrees:
+        root = mp.mpf(1) / power
+        fit(f"{name}: degree {degree}", lambda r: r**-root, powers(0, degree + 1), lambda r: r**root, lo, hi, one_by_one=False)
+
+
+guess("recip", lambda m, i: number(m - i), range(0x7EF00000, 0x7F000000, 0x8000), 1, [1, 2])
+guess("rsqrt", lambda m, i: number(m - (i >> 1)), range(0x5F300000, 0x5F400000, 0x8000), 2, [1, 2])

@@ -3,6 +3,7 @@
 //! A test holds each baseline to the same values as the lobe, so that the comparison stays honest.
 
 pub mod plain;
+pub mod slices;
 
 use glam::Vec3;
 

@@ -1,5 +1,7 @@
 //! Linear RGB.
 
+use crate::Carry;
+use crate::carry::carry;
 use crate::number::Real;
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -15,6 +17,8 @@ pub struct Rgb<R = f32> {
     /// Blue.
     pub b: R,
 }
+
+carry!([T: Carry] Rgb<T> => Rgb<T::In<S>> { r, g, b });
 
 impl<R> Rgb<R> {
     /// The colour `(r, g, b)`.

@@ -36,6 +36,7 @@
 //! # assert!(variant.radiance(n, light.l, v, light.irradiance).r > 0.0);
 //! ```
 
+use crate::carry::carry;
 use crate::brdf::power::{self, Shininess};
 use crate::brdf::{Brdf, Lambert, Sum, above_horizon};
 use crate::color::Rgb;
@@ -177,6 +178,8 @@ macro_rules! highlight {
             ks: Rgb<R>,
             q: Shininess<R>,
         }
+
+        carry!([] $name<f32> => $name<S> { ks, q });
 
         impl<R: Real> $name<R> {
             /// The highlight with coefficient `k_s` and exponent `q`.

@@ -1,5 +1,6 @@
 //! Newtypes for parameters that are known to be mixed up, and the published ways from one to the other.
 
+use crate::carry::carry;
 use crate::brdf::Shininess;
 use crate::number::Real;
 
@@ -9,6 +10,8 @@ use crate::number::Real;
 /// A type of its own, because the *perceptual* roughness `r`, of which `α` is the square, is plausible in its place.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Alpha<R = f32>(pub R);
+
+carry!([] Alpha<f32> => Alpha<S> { 0 });
 
 impl<R> Alpha<R> {
     /// The same width in another number type.
@@ -29,6 +32,8 @@ impl<R: Real> Alpha<R> {
 /// A relative index of refraction `η`: of the far side over that of the side of the light. Domain: `[0.25, 4]`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Ior<R = f32>(pub R);
+
+carry!([] Ior<f32> => Ior<S> { 0 });
 
 impl<R> Ior<R> {
     /// The same index in another number type.
@@ -57,6 +62,8 @@ impl<R: Real> Ior<R> {
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct F0<R = f32>(pub R);
 
+carry!([] F0<f32> => F0<S> { 0 });
+
 impl<R> F0<R> {
     /// The same reflectance in another number type.
     #[inline(always)]
@@ -79,6 +86,8 @@ impl<R: Real> F0<R> {
 /// A type of its own, because `α` and `r` are given for each other in real engines to this day.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct PerceptualRoughness<R = f32>(pub R);
+
+carry!([] PerceptualRoughness<f32> => PerceptualRoughness<S> { 0 });
 
 impl<R> PerceptualRoughness<R> {
     /// The same roughness in another number type.

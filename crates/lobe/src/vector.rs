@@ -3,6 +3,7 @@
 //! Directions point away from the surface unless the name says otherwise: `l` to the light, `v` to the viewer, `n` the
 //! normal, `h` halfway between `l` and `v`.
 
+use crate::carry::carry;
 use crate::number::Real;
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -16,6 +17,8 @@ pub struct Vec3<R = f32> {
     /// Along the normal, in a local frame: the cosine, if the vector is a direction.
     pub z: R,
 }
+
+carry!([] Vec3<f32> => Vec3<S> { x, y, z });
 
 impl<R> Vec3<R> {
     /// The vector `(x, y, z)`.

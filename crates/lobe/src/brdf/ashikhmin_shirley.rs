@@ -1,6 +1,7 @@
 //! Ashikhmin-Shirley: `f_r = √((nu+1)(nv+1))/(8π) · (n·h)^e F(l·h)/((l·h) max(n·l, n·v))`,
 //! `e = (nu h.x² + nv h.y²)/(1 − h.z²)`; and the diffuse lobe that goes with it.
 
+use crate::carry::carry;
 use super::power::half_vector_power;
 use super::{Brdf, Shininess, above_horizon, both_above, zero_or_nan};
 use crate::color::Rgb;
@@ -46,6 +47,8 @@ pub struct AshikhminShirley<R = f32> {
     /// `√((nu+1)(nv+1))/(8π)`.
     peak: R,
 }
+
+carry!([] AshikhminShirley<f32> => AshikhminShirley<S> { f0, nu, nv, fresnel, peak });
 
 impl<R: Real> AshikhminShirley<R> {
     /// The lobe of reflectance `f0` at normal incidence, with one exponent along the tangent and one along the
@@ -139,6 +142,8 @@ pub struct AshikhminShirleyDiffuse<R = f32> {
     /// `28/(23π) ρ (1 − f0)`.
     factor: Rgb<R>,
 }
+
+carry!([] AshikhminShirleyDiffuse<f32> => AshikhminShirleyDiffuse<S> { albedo, f0, factor });
 
 impl<R: Real> AshikhminShirleyDiffuse<R> {
     /// The diffuse lobe `ρ` beneath a surface that reflects `f0`.

@@ -1,5 +1,7 @@
 //! Blinn 1977: `f_r (n·l) = ks F G D(h)/D(n) / (n·v)`.
 
+use crate::Carry;
+use crate::carry::carry;
 use super::{Brdf, Microfacet};
 use crate::color::Rgb;
 use crate::distribution::Distribution;
@@ -25,6 +27,8 @@ pub struct Blinn1977<D, F, R = f32> {
     factor: Rgb<R>,
     terms: Microfacet<D, VCavity, F>,
 }
+
+carry!([D: Carry, F: Carry] Blinn1977<D, F, f32> => Blinn1977<D::In<S>, F::In<S>, S> { ks, factor, terms });
 
 impl<R: Real, D: Distribution<R>, F: Fresnel<R>> Blinn1977<D, F, R> {
     /// The highlight with coefficient `ks`, a distribution that is scaled to 1 at its peak, and a Fresnel term.

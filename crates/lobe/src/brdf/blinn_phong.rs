@@ -1,5 +1,6 @@
 //! Blinn-Phong: `f_r = ks N(q) · (n·h)^q`.
 
+use crate::carry::carry;
 use super::{Brdf, Shininess, power};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -39,6 +40,8 @@ pub struct BlinnPhong<R = f32, N = NormalIncidence> {
     peak: Rgb<R>,
     normalization: PhantomData<N>,
 }
+
+carry!([N] BlinnPhong<f32, N> => BlinnPhong<S, N> { ks, q, peak, normalization });
 
 /// A published factor `N(q)` for the half-vector lobe, in sr⁻¹.
 pub trait Normalization {

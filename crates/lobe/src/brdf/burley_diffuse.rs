@@ -1,5 +1,6 @@
 //! Burley's diffuse lobe: `f_r = ρ/π (1 + (F90 − 1)(1 − n·l)⁵)(1 + (F90 − 1)(1 − n·v)⁵)`, `F90 = 1/2 + 2 r cos² θ_d`.
 
+use crate::carry::carry;
 use super::{Brdf, above_horizon};
 use crate::PerceptualRoughness;
 use crate::color::Rgb;
@@ -19,6 +20,8 @@ pub struct BurleyDiffuse<R = f32> {
     albedo: Rgb<R>,
     roughness: PerceptualRoughness<R>,
 }
+
+carry!([] BurleyDiffuse<f32> => BurleyDiffuse<S> { albedo, roughness });
 
 impl<R: Real> BurleyDiffuse<R> {
     /// The lobe of base colour `ρ` and roughness `r`.

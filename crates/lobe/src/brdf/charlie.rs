@@ -1,5 +1,6 @@
 //! Charlie sheen: `f_r = c D V`, `D = (2 + 1/α)/(2π) sin^(1/α) θ_h`, `V = 1/(4 (n·l)(n·v)(1 + Λ(l) + Λ(v)))`.
 
+use crate::carry::carry;
 use super::{Brdf, both_above, power, zero_or_nan};
 use crate::Alpha;
 use crate::color::Rgb;
@@ -28,6 +29,8 @@ pub struct Charlie<R = f32> {
     fit: Fit<R>,
 }
 
+carry!([] Charlie<f32> => Charlie<S> { color, alpha, exponent, peak, fit });
+
 /// The numbers of `L`, and `2 L(1/2)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Fit<R> {
@@ -38,6 +41,8 @@ struct Fit<R> {
     e: R,
     middle: R,
 }
+
+carry!([] Fit<f32> => Fit<S> { a, b, c, d, e, middle });
 
 impl<R: Real> Fit<R> {
     #[inline(always)]

@@ -1,5 +1,7 @@
 //! A coat: `f = f_top + (1 − F(n·l)) (1 − F(n·v)) f_base`.
 
+use crate::Carry;
+use crate::carry::carry;
 use super::{Brdf, above_horizon};
 use crate::color::Rgb;
 use crate::fresnel::{Fresnel, Incidence};
@@ -31,6 +33,8 @@ pub struct Coat<T, F, B> {
     interface: F,
     base: B,
 }
+
+carry!([T: Carry, F: Carry, B: Carry] Coat<T, F, B> => Coat<T::In<S>, F::In<S>, B::In<S>> { top, interface, base });
 
 impl<T, F, B> Coat<T, F, B> {
     /// The lobe `top`, whose interface has the Fresnel term `interface`, over the lobe `base`.

@@ -1,5 +1,7 @@
 //! Cook-Torrance: `f_r = F D G/(π (n·l)(n·v))`, with D Beckmann's and G that of V-cavities.
 
+use crate::Carry;
+use crate::carry::carry;
 use super::{Brdf, Microfacet};
 use crate::Alpha;
 use crate::color::Rgb;
@@ -25,6 +27,8 @@ pub struct CookTorrance<F, R = f32> {
     alpha: Alpha<R>,
     terms: Microfacet<Beckmann<R>, VCavity, F>,
 }
+
+carry!([F: Carry] CookTorrance<F, f32> => CookTorrance<F::In<S>, S> { ks, alpha, terms });
 
 impl<R: Real, F: Fresnel<R> + Copy> CookTorrance<F, R> {
     /// The lobe with coefficient `ks`, root mean square slope `m` and Fresnel term.

@@ -1,6 +1,7 @@
 //! EON: Fujii's form of Oren-Nayar and the light that it loses,
 //! `f_r = ρ/π A (1 + r s/t) + ρₘ/π (1 − E(l))(1 − E(v))/(1 − Ē)`.
 
+use crate::carry::carry;
 use super::{Brdf, above_horizon, plane};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -35,6 +36,8 @@ pub struct Eon<R = f32> {
     /// `ρₘ A r/(π³ (c₁ − c₂))`.
     multiple: Rgb<R>,
 }
+
+carry!([] Eon<f32> => Eon<S> { albedo, roughness, single, multiple });
 
 /// `c₁`.
 const LOSS: f64 = 0.5 - 2.0 / (3.0 * PI);

@@ -1,5 +1,7 @@
 //! glTF 2.0: `mix(fresnel_mix(ρ/π, S), F_metal S, metallic)`, `S` a GGX without Fresnel.
 
+use crate::Carry;
+use crate::carry::carry;
 use super::{Brdf, above_horizon};
 use crate::Alpha;
 use crate::color::Rgb;
@@ -50,6 +52,10 @@ pub struct MetallicRoughness<R = f32, G = SmithSeparable> {
     /// `w`.
     specular: R,
 }
+
+carry!([G: Carry] MetallicRoughness<f32, G> => MetallicRoughness<S, G::In<S>> {
+    base_color, metallic, distribution, masking, f0, specular
+});
 
 impl<R: Real> MetallicRoughness<R> {
     /// The material without extensions: `f0 = 0.04`, `w = 1`.
@@ -161,6 +167,8 @@ pub struct Clearcoat<B, R = f32> {
     clearcoat: R,
     distribution: Ggx<R>,
 }
+
+carry!([B: Carry] Clearcoat<B, f32> => Clearcoat<B::In<S>, S> { base, clearcoat, distribution });
 
 impl<B, R: Real> Clearcoat<B, R> {
     /// A coat of the intensity `clearcoat ∈ [0, 1]` and a width `α`, the square of `clearcoatRoughness`, on a base.

@@ -1,6 +1,7 @@
 //! He, Torrance, Sillion, Greenberg: `f_r = ks F S G D/(π (n·l)(n·v))`, diffraction by a rough surface, from the
 //! wave equation.
 
+use crate::carry::carry;
 use super::{Brdf, above_horizon};
 use crate::color::Rgb;
 use crate::fresnel::{Dielectric, Fresnel, Incidence};
@@ -62,6 +63,8 @@ pub struct HeTorrance<R = f32> {
     sigma: R,
     tau: R,
 }
+
+carry!([] HeTorrance<f32> => HeTorrance<S> { ks, fresnel, sigma, tau });
 
 /// Terms of the series for few disturbances; at the largest term 20 the next one is 1e-8 of the sum.
 const TERMS: u32 = 50;

@@ -1,5 +1,6 @@
 //! Lafortune: `f_r = ks N max(0, Cx l.x v.x + Cy l.y v.y + Cz l.z v.z)^q`.
 
+use crate::carry::carry;
 use super::power::mirror_power;
 use super::{Brdf, Shininess, both_above, zero_or_nan};
 use crate::color::Rgb;
@@ -57,6 +58,8 @@ pub struct Lafortune<R = f32> {
     peak: Rgb<R>,
     normalized: bool,
 }
+
+carry!([] Lafortune<f32> => Lafortune<S> { ks, c, q, share, rest, peak, normalized });
 
 impl<R: Real> Lafortune<R> {
     /// `f_r = ks (q + 2)/(2π m^q) max(0, C·(l v))^q`, `m = max(|Cx|, |Cy|, |Cz|)`.

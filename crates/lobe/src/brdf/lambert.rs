@@ -1,5 +1,6 @@
 //! Lambert: `f_r = ρ/π`.
 
+use crate::carry::carry;
 use super::{Brdf, above_horizon};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -22,6 +23,8 @@ use core::f64::consts::FRAC_1_PI;
 pub struct Lambert<R = f32> {
     albedo: Rgb<R>,
 }
+
+carry!([] Lambert<f32> => Lambert<S> { albedo });
 
 impl<R: Real> Lambert<R> {
     /// A diffuse lobe of the given albedo `ρ`.

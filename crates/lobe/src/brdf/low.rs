@@ -1,6 +1,7 @@
 //! Low, Kronander, Ynnerman, Unger: `f_r = A F(θ_d)/(1 + B |l_xy + v_xy|²)^C`, and with facets
 //! `f_r = A F(θ_d) G (1 + B (1 − n·h))^(−C)/(π (n·l)(n·v))`.
 
+use crate::carry::carry;
 use super::microfacet::unit_halfway;
 use super::{Brdf, above_horizon};
 use crate::color::Rgb;
@@ -48,6 +49,8 @@ pub struct LowSmooth<R = f32> {
     fresnel: Dielectric<R>,
 }
 
+carry!([] LowSmooth<f32> => LowSmooth<S> { a, b, c, fresnel });
+
 /// The microfacet model: `f_r = A F(θ_d) G (1 + B (1 − n·h))^(−C)/(π (n·l)(n·v))` sr⁻¹, `G` of V-cavities.
 ///
 /// Löw et al. 2012, equation 15: the ABC form in place of a distribution, not normalised. The factor `1/π` belongs to the
@@ -62,6 +65,8 @@ pub struct LowMicrofacet<R = f32> {
     c: R,
     fresnel: Dielectric<R>,
 }
+
+carry!([] LowMicrofacet<f32> => LowMicrofacet<S> { a, b, c, fresnel });
 
 macro_rules! parameters {
     ($($name:ident)+) => {$(

@@ -1,5 +1,7 @@
 //! The microfacet model of any terms: `f_r = D(h) F(l·h) G(l, v)/(4 (n·l)(n·v))`.
 
+use crate::Carry;
+use crate::carry::carry;
 use super::{Brdf, above_horizon};
 use crate::color::Rgb;
 use crate::distribution::{Distribution, Gaussian};
@@ -29,6 +31,10 @@ pub struct Microfacet<D, G, F> {
     masking: G,
     fresnel: F,
 }
+
+carry!([D: Carry, G: Carry, F: Carry] Microfacet<D, G, F> => Microfacet<D::In<S>, G::In<S>, F::In<S>> {
+    distribution, masking, fresnel
+});
 
 impl<D, G, F> Microfacet<D, G, F> {
     /// The model with these terms.

@@ -1,5 +1,6 @@
 //! Minnaert: `f_r = ρ (k + 1)/(2π) ((n·l)(n·v))^(k−1)`.
 
+use crate::carry::carry;
 use super::{Brdf, above_horizon};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -20,6 +21,8 @@ pub struct Minnaert<R = f32> {
     /// `2³¹ ρ (k + 1)/(2π)`.
     scale: Rgb<R>,
 }
+
+carry!([] Minnaert<f32> => Minnaert<S> { albedo, k, scale });
 
 impl<R: Real> Minnaert<R> {
     /// The law of albedo `ρ` and exponent `k`.

@@ -1,5 +1,6 @@
 //! The perfect mirror: a delta, so a direction and a weight, never a large number.
 
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;
@@ -20,6 +21,8 @@ use crate::vector::Vec3;
 pub struct Mirror<R = f32> {
     ks: Rgb<R>,
 }
+
+carry!([] Mirror<f32> => Mirror<S> { ks });
 
 /// One direction that carries all of the light: `L_o = weight · L(l)`.
 #[derive(Clone, Copy, Debug, PartialEq)]

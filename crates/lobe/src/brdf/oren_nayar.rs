@@ -1,5 +1,6 @@
 //! Oren-Nayar, qualitative: `f_r = ρ/π (A + B max(0, cos Δφ) sin α tan β)`, and in full.
 
+use crate::carry::carry;
 use super::{Brdf, above_horizon, plane};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -22,6 +23,8 @@ pub struct OrenNayarQualitative<R = f32> {
     a: R,
     b: R,
 }
+
+carry!([] OrenNayarQualitative<f32> => OrenNayarQualitative<S> { albedo, sigma, a, b });
 
 impl<R: Real> OrenNayarQualitative<R> {
     /// The surface of facet albedo `ρ` and roughness `σ` in radians.
@@ -78,6 +81,8 @@ pub struct OrenNayar<R = f32> {
     /// `0.17 ρ² σ²/(σ² + 0.13)`.
     again: Rgb<R>,
 }
+
+carry!([] OrenNayar<f32> => OrenNayar<S> { albedo, sigma, c1, rough, again });
 
 impl<R: Real> OrenNayar<R> {
     /// The surface of facet albedo `ρ` and roughness `σ` in radians.

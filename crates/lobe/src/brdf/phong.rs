@@ -1,5 +1,6 @@
 //! Phong: `f_r = ks (q + 2)/(2π) · max(0, r·v)^q`.
 
+use crate::carry::carry;
 use super::{Brdf, Shininess, power};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -36,6 +37,8 @@ pub struct Phong<R = f32> {
     /// `ks (q + 2)/(2π)`.
     peak: Rgb<R>,
 }
+
+carry!([] Phong<f32> => Phong<S> { ks, q, peak });
 
 impl<R: Real> Phong<R> {
     /// A mirror lobe of reflectance `ks` and exponent `q`.

@@ -11,6 +11,7 @@
 //!
 //! `docs/numerics.md` derives the bounds.
 
+use crate::carry::carry;
 use super::{both_above, zero_or_nan};
 use crate::number::Real;
 use crate::vector::Vec3;
@@ -20,6 +21,8 @@ use crate::vector::Vec3;
 /// A type of its own, because a roughness given for it (or the reverse) is plausible and wrong.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Shininess<R = f32>(pub R);
+
+carry!([] Shininess<f32> => Shininess<S> { 0 });
 
 impl<R> Shininess<R> {
     /// The same exponent in another number type.

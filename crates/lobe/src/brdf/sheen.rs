@@ -1,5 +1,7 @@
 //! Sheen over a base: `f = f_sheen + f_base · min(1 − m E(n·v), 1 − m E(n·l))`.
 
+use crate::Carry;
+use crate::carry::carry;
 use super::{Brdf, Charlie, above_horizon};
 use crate::Alpha;
 use crate::color::Rgb;
@@ -25,6 +27,8 @@ pub struct SheenLayer<B, R = f32> {
     /// `m E` at `√cos θ = i/15`.
     albedo: [R; 16],
 }
+
+carry!([B: Carry] SheenLayer<B, f32> => SheenLayer<B::In<S>, S> { base, sheen, albedo });
 
 impl<B, R: Real> SheenLayer<B, R> {
     /// The sheen of this colour and width on a base.

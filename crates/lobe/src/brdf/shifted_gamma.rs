@@ -1,5 +1,6 @@
 //! Shifted-Gamma: `f_r = ks F D G₁(l) G₁(v)/(π (n·l)(n·v))`, `D = K exp(−t)/(π t^p (n·h)⁴)`, `t = α + tan²θ_h/α`.
 
+use crate::carry::carry;
 use super::{Brdf, above_horizon};
 use crate::color::Rgb;
 use crate::fresnel::{Incidence, fifth_power};
@@ -31,6 +32,8 @@ pub struct ShiftedGammaChannel<R = f32> {
     /// `θ₀` in radians, below which nothing is masked; may be negative.
     pub theta0: R,
 }
+
+carry!([] ShiftedGammaChannel<f32> => ShiftedGammaChannel<S> { ks, alpha, p, k_ap, f0, f1, lambda, log2_c, k, theta0 });
 
 impl<R> ShiftedGammaChannel<R> {
     /// The same parameters in another number type.
@@ -73,6 +76,8 @@ impl<R> ShiftedGammaChannel<R> {
 pub struct ShiftedGamma<R = f32> {
     channels: Rgb<ShiftedGammaChannel<R>>,
 }
+
+carry!([] ShiftedGamma<f32> => ShiftedGamma<S> { channels });
 
 impl<R: Real> ShiftedGamma<R> {
     /// The lobe with these parameters of the three channels.

@@ -1,5 +1,6 @@
 //! Beckmann: `D = exp(−t)/(π αx αy h.z⁴)`, `t = (h.x²/αx² + h.y²/αy²)/h.z²`.
 
+use crate::carry::carry;
 use super::{Distribution, SmithLambda, Widths};
 use crate::Alpha;
 use crate::number::Real;
@@ -18,6 +19,8 @@ use crate::vector::Vec3;
 pub struct Beckmann<R = f32> {
     widths: Widths<R>,
 }
+
+carry!([] Beckmann<f32> => Beckmann<S> { widths });
 
 impl<R: Real> Beckmann<R> {
     /// The isotropic distribution; `α` is the `m` of Cook and Torrance.

@@ -1,5 +1,6 @@
 //! The Gaussian of Torrance and Sparrow: `D = k exp(−(δ/α)²)`, `δ` the angle of the facet.
 
+use crate::carry::carry;
 use super::{Distribution, Widths, quadrature};
 use crate::Alpha;
 use crate::number::Real;
@@ -23,6 +24,8 @@ pub struct Gaussian<R = f32> {
     /// `k`.
     peak: R,
 }
+
+carry!([] Gaussian<f32> => Gaussian<S> { widths, peak });
 
 impl<R: Real> Gaussian<R> {
     /// The isotropic distribution.

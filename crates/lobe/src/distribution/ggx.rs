@@ -1,5 +1,6 @@
 //! GGX: `D = 1/(π αx αy (h.x²/αx² + h.y²/αy² + h.z²)²)`.
 
+use crate::carry::carry;
 use super::{Distribution, SmithLambda, Widths};
 use crate::Alpha;
 use crate::number::Real;
@@ -22,6 +23,8 @@ use crate::vector::Vec3;
 pub struct Ggx<R = f32> {
     widths: Widths<R>,
 }
+
+carry!([] Ggx<f32> => Ggx<S> { widths });
 
 impl<R: Real> Ggx<R> {
     /// The isotropic distribution.

@@ -1,5 +1,6 @@
 //! GTR: `D = k (h.x²/αx² + h.y²/αy² + h.z²)^−γ`.
 
+use crate::carry::carry;
 use super::{Distribution, Widths, quadrature};
 use crate::Alpha;
 use crate::number::Real;
@@ -27,6 +28,8 @@ pub struct Gtr<R = f32> {
     /// `k`.
     peak: R,
 }
+
+carry!([] Gtr<f32> => Gtr<S> { widths, gamma, peak });
 
 impl<R: Real> Gtr<R> {
     /// The isotropic distribution.

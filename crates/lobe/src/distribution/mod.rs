@@ -25,6 +25,7 @@ pub use smith_table::SmithTable;
 pub use student_t::StudentT;
 pub use tabulated::Tabulated;
 
+use crate::carry::carry;
 use crate::number::Real;
 use crate::vector::Vec3;
 
@@ -60,6 +61,8 @@ pub(crate) struct Widths<R> {
     /// `1/(π αx αy)`: the value of GGX and Beckmann at the peak.
     pub(crate) peak: R,
 }
+
+carry!([] Widths<f32> => Widths<S> { x, y, inverse, peak });
 
 impl<R: Real> Widths<R> {
     #[inline(always)]

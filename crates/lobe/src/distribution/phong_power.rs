@@ -1,5 +1,6 @@
 //! Blinn: `D = √((qx + 2)(qy + 2))/(2π) · h.z^((qx h.x² + qy h.y²)/(h.x² + h.y²))`.
 
+use crate::carry::carry;
 use super::{Distribution, Widths};
 use crate::Alpha;
 use crate::Shininess;
@@ -25,6 +26,8 @@ pub struct PhongPower<R = f32> {
     /// `qx/2`, `qy/2`.
     half_q: (R, R),
 }
+
+carry!([] PhongPower<f32> => PhongPower<S> { widths, half_q });
 
 impl<R: Real> PhongPower<R> {
     /// The isotropic distribution of width `α`: `q = 2/α² − 2`.

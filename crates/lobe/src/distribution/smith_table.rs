@@ -1,5 +1,7 @@
 //! Smith's `Λ` of any isotropic distribution, integrated once and interpolated.
 
+use crate::Carry;
+use crate::carry::carry;
 use super::{Distribution, SmithLambda, Widths};
 use crate::Alpha;
 use crate::number::Real;
@@ -32,6 +34,8 @@ pub struct SmithTable<D, R = f32, const N: usize = 64> {
     /// `I` and its derivative by `u · (N − 1)`, at `u = i/(N − 1)`.
     nodes: [(R, R); N],
 }
+
+carry!([D: Carry, const N: usize] SmithTable<D, f32, N> => SmithTable<D::In<S>, S, N> { distribution, widths, nodes });
 
 impl<R: Real, D: Distribution<R>, const N: usize> SmithTable<D, R, N> {
     /// The table of an isotropic distribution of this width.

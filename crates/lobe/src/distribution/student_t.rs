@@ -1,5 +1,6 @@
 //! Student-t: `D = (1 + t/(γ − 1))^−γ/(π αx αy h.z⁴)`, `t = (h.x²/αx² + h.y²/αy²)/h.z²`.
 
+use crate::carry::carry;
 use super::{Distribution, Widths};
 use crate::Alpha;
 use crate::number::Real;
@@ -25,6 +26,8 @@ pub struct StudentT<R = f32> {
     /// `1/(γ − 1)`.
     inverse: R,
 }
+
+carry!([] StudentT<f32> => StudentT<S> { widths, gamma, inverse });
 
 impl<R: Real> StudentT<R> {
     /// The isotropic distribution.

@@ -1,5 +1,6 @@
 //! A table: `D = Σ pᵢ hat(θ/step − i)/∫`, any distribution of the angle.
 
+use crate::carry::carry;
 use super::Distribution;
 use crate::number::Real;
 use crate::vector::Vec3;
@@ -27,6 +28,8 @@ pub struct Tabulated<R = f32, const N: usize = 91> {
     /// Normalised.
     values: [R; N],
 }
+
+carry!([const N: usize] Tabulated<f32, N> => Tabulated<S, N> { values });
 
 impl<R: Real, const N: usize> Tabulated<R, N> {
     /// The distribution in proportion to these values, at the angles `i · 90°/(N − 1)`.

@@ -1,5 +1,6 @@
 //! Fresnel, conductor: `Rs = |cos θ − w|²/|cos θ + w|²`, `w² = (η + ik)² − sin² θ`, and its `Rp`.
 
+use crate::carry::carry;
 use super::dielectric::root_free;
 use super::{Fresnel, Incidence, at_most_one, felt, zip};
 use crate::color::Rgb;
@@ -33,6 +34,8 @@ pub struct Conductor<R = f32> {
     eta: Rgb<R>,
     k: Rgb<R>,
 }
+
+carry!([] Conductor<f32> => Conductor<S> { eta, k });
 
 impl<R: Real> Conductor<R> {
     /// The conductor of index `η` and extinction coefficient `k`, both relative to the medium of the light.

@@ -1,5 +1,6 @@
 //! Cook's form: Fresnel's dielectric reflectance, for `η = (1 + √F0)/(1 − √F0)` of each channel.
 
+use crate::carry::carry;
 use super::{Fresnel, Incidence, dielectric};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -17,6 +18,8 @@ use crate::parameter::F0;
 pub struct CookFresnel<R = f32> {
     f0: Rgb<R>,
 }
+
+carry!([] CookFresnel<f32> => CookFresnel<S> { f0 });
 
 impl<R: Real> CookFresnel<R> {
     /// The interface that reflects `f0` at normal incidence.

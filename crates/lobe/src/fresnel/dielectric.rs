@@ -1,6 +1,7 @@
 //! Fresnel, dielectric: `F = (rs² + rp²)/2`, `rs = (cos θ − g)/(cos θ + g)`, `rp = (η² cos θ − g)/(η² cos θ + g)`,
 //! `g² = η² − sin² θ`.
 
+use crate::carry::carry;
 use super::{Fresnel, Incidence, at_most_one, felt};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -30,6 +31,8 @@ use crate::parameter::Ior;
 pub struct Dielectric<R = f32> {
     eta: Ior<R>,
 }
+
+carry!([] Dielectric<f32> => Dielectric<S> { eta });
 
 impl<R: Real> Dielectric<R> {
     /// The interface of a relative index of refraction: of the far side over that of the side of the light.

@@ -1,5 +1,6 @@
 //! F82-tint: `F = S(μ) − μ (1 − μ)⁶ S(1/7) (1 − tint)/((1/7)(6/7)⁶)`, `S` Schlick's form, `μ = cos θ`.
 
+use crate::carry::carry;
 use super::{Fresnel, Incidence, at_least_zero, at_most_one, fifth_power, zip};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -20,6 +21,8 @@ pub struct F82Tint<R = f32> {
     /// What stands before `μ (1 − μ)⁶`.
     b: Rgb<R>,
 }
+
+carry!([] F82Tint<f32> => F82Tint<S> { f0, tint, b });
 
 impl<R: Real> F82Tint<R> {
     /// The form with reflectance `f0` at normal incidence and the tint near grazing.

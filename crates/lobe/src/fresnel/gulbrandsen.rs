@@ -1,5 +1,6 @@
 //! Gulbrandsen: Fresnel's conductor, for `η` and `k` from a reflectivity `r` and an edge tint `g`.
 
+use crate::carry::carry;
 use super::{Conductor, Fresnel, Incidence, conductor};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -24,6 +25,8 @@ pub struct Gulbrandsen<R = f32> {
     blue: Channel<R>,
 }
 
+carry!([] Gulbrandsen<f32> => Gulbrandsen<S> { reflectivity, edge_tint, red, green, blue });
+
 /// The index of one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Channel<R> {
@@ -32,6 +35,8 @@ struct Channel<R> {
     difference: R,
     k: R,
 }
+
+carry!([] Channel<f32> => Channel<S> { eta, difference, k });
 
 impl<R: Real> Channel<R> {
     #[inline(always)]

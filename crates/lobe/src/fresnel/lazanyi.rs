@@ -1,5 +1,6 @@
 //! Lazányi: `F = f0 + (1 − f0)(1 − cos θ)⁵ − a cos θ (1 − cos θ)^α`.
 
+use crate::carry::carry;
 use super::{Fresnel, Incidence, at_least_zero, at_most_one, fifth_power, zip};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -17,6 +18,8 @@ pub struct Lazanyi<R = f32> {
     a: Rgb<R>,
     alpha: R,
 }
+
+carry!([] Lazanyi<f32> => Lazanyi<S> { f0, a, alpha });
 
 impl<R: Real> Lazanyi<R> {
     /// The form with reflectance `f0` at normal incidence, and the factor and exponent of the error term.

@@ -1,5 +1,6 @@
 //! Schlick: `F = f0 + (f90 − f0)(1 − cos θ)⁵`.
 
+use crate::carry::carry;
 use super::{Fresnel, Incidence, at_most_one, fifth_power};
 use crate::color::Rgb;
 use crate::number::Real;
@@ -17,6 +18,8 @@ pub struct Schlick<R = f32> {
     f0: Rgb<R>,
     f90: Rgb<R>,
 }
+
+carry!([] Schlick<f32> => Schlick<S> { f0, f90 });
 
 impl<R: Real> Schlick<R> {
     /// The form with `f90 = 1`.

@@ -1,5 +1,6 @@
 //! Hammon: `V = 1/(2 ((1 − α) 2 (n·l)(n·v) + α (n·l + n·v)))`.
 
+use crate::carry::carry;
 use super::Masking;
 use crate::Alpha;
 use crate::number::Real;
@@ -18,6 +19,8 @@ use crate::vector::Vec3;
 pub struct Hammon<R = f32> {
     alpha: Alpha<R>,
 }
+
+carry!([] Hammon<f32> => Hammon<S> { alpha });
 
 impl<R: Real> Hammon<R> {
     /// The masking for a GGX of this width.

@@ -1,5 +1,6 @@
 //! Walter's rational form: `G₁ = (3.535 a + 2.181 a²)/(1 + 2.276 a + 2.577 a²)`, 1 from `a = 1.6` on.
 
+use crate::carry::carry;
 use super::Masking;
 use crate::Alpha;
 use crate::distribution::Widths;
@@ -18,6 +19,8 @@ use crate::vector::Vec3;
 pub struct RationalBeckmann<R = f32> {
     widths: Widths<R>,
 }
+
+carry!([] RationalBeckmann<f32> => RationalBeckmann<S> { widths });
 
 impl<R: Real> RationalBeckmann<R> {
     /// The masking for a Beckmann of this width.

@@ -1,5 +1,6 @@
 //! Schlick: `G₁ = cos θ/(cos θ (1 − k) + k)`.
 
+use crate::carry::carry;
 use super::Masking;
 use crate::Alpha;
 use crate::number::Real;
@@ -23,6 +24,8 @@ use crate::vector::Vec3;
 pub struct SchlickGgx<R = f32> {
     k: R,
 }
+
+carry!([] SchlickGgx<f32> => SchlickGgx<S> { k });
 
 impl<R: Real> SchlickGgx<R> {
     /// `k = α/2`: the fit to GGX. Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013 course, for image-based light.

@@ -9,19 +9,23 @@
 //! Mark every method `#[inline(always)]`, and override nothing that is provided unless the result stays the same:
 //! one method that is left out of line costs more than the formula it stands in.
 
+mod approximate;
 mod double;
 pub mod elementary;
 #[cfg(feature = "half")]
 mod half;
+mod precision;
 mod single;
 #[cfg(feature = "simd")]
 mod wide;
 
+pub use approximate::{Approximate, Coarse, Fast};
 pub use elementary::Binary32;
 #[cfg(feature = "half")]
 pub use half::Half;
+pub use precision::{Estimate, Precise, Precision, Rough};
 #[cfg(feature = "simd")]
-pub use wide::{Wide, WideMask};
+pub use wide::{Lanes, Wide, WideMask};
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -179,10 +183,31 @@ pub trait Real:
     fn times(self, c: f64) -> Self {
         self * self.lift(c)
     }
+    /// `self · a + b`.
+    ///
+    /// In two roundings, so that the bits are the same on every machine; in [`Approximate`] numbers in one, where the
+    /// machine has an instruction for it.
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self * a + b
+    }
     /// `1 / self`.
     #[inline(always)]
     fn recip(self) -> Self {
         self.lift(1.0) / self
+    }
+    /// `1/√self`.
+    #[inline(always)]
+    fn rsqrt(self) -> Self {
+        self.sqrt().recip()
+    }
+    /// `1 − self`, which `exact` computes without the difference.
+    ///
+    /// For a cosine near 1, of which the difference keeps few digits. Numbers that have not more digits than that
+    /// ([`Approximate`]) take the difference.
+    #[inline(always)]
+    fn one_minus(self, exact: impl FnOnce() -> Self) -> Self {
+        exact()
     }
     /// `self · self`.
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! `Wide`: SIMD lanes of `f32`, the same bits in each lane as the scalar.
 
+use super::precision::{Estimate, Rough};
 use super::{Binary32, Mask, Real, elementary};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use fearless_simd::{Bytes as _, ExtractToken as _, Select as _, Simd, SimdBase, SimdFloat as _, SimdFrom as _};
@@ -189,4 +190,174 @@ impl<S: Simd> Binary32 for Wide<S> {
         let bits: S::u32s = self.0.bitcast();
         Self((bits & 0xffff_f000).bitcast())
     }
+}
+
+/// A SIMD level, with the estimates that it has.
+///
+/// For every level of `fearless_simd`; which instructions there are is known for each of them only.
+pub trait Lanes: Simd {
+    /// As [`Estimate::fused`].
+    #[inline(always)]
+    fn fused(a: Wide<Self>, b: Wide<Self>, c: Wide<Self>) -> Wide<Self> {
+        a * b + c
+    }
+    /// As [`Estimate::recip_estimate`].
+    #[inline(always)]
+    fn recip(x: Wide<Self>) -> Wide<Self> {
+        Real::recip(x)
+    }
+    /// As [`Estimate::divide`].
+    #[inline(always)]
+    fn divide(a: Wide<Self>, b: Wide<Self>) -> Wide<Self> {
+        a / b
+    }
+    /// As [`Estimate::sqrt_estimate`].
+    #[inline(always)]
+    fn sqrt(x: Wide<Self>) -> Wide<Self> {
+        Real::sqrt(x)
+    }
+    /// As [`Estimate::rsqrt_estimate`].
+    #[inline(always)]
+    fn rsqrt<P: Rough>(x: Wide<Self>) -> Wide<Self> {
+        super::approximate::refine_rsqrt::<_, P>(x, x.rsqrt_guess(super::approximate::RSQRT_START))
+    }
+}
+
+impl<S: Lanes> Estimate for Wide<S> {
+    #[inline(always)]
+    fn fused(self, a: Self, b: Self) -> Self {
+        S::fused(self, a, b)
+    }
+    #[inline(always)]
+    fn recip_estimate(self) -> Self {
+        S::recip(self)
+    }
+    #[inline(always)]
+    fn divide(a: Self, b: Self) -> Self {
+        S::divide(a, b)
+    }
+    #[inline(always)]
+    fn sqrt_estimate(self) -> Self {
+        S::sqrt(self)
+    }
+    #[inline(always)]
+    fn rsqrt_guess(self, start: u32) -> Self {
+        let bits: S::u32s = self.0.bitcast();
+        let start = S::u32s::splat(self.0.token(), start);
+        Self((start - (bits >> 1)).bitcast())
+    }
+    #[inline(always)]
+    fn rsqrt_estimate<P: Rough>(self) -> Self {
+        S::rsqrt::<P>(self)
+    }
+}
+
+#[cfg(not(any(
+    target_arch = "x86",
+    target_arch = "x86_64",
+    all(target_arch = "aarch64", target_feature = "neon"),
+    all(target_arch = "wasm32", target_feature = "simd128")
+)))]
+impl Lanes for fearless_simd::Fallback {}
+
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+impl Lanes for fearless_simd::WasmSimd128 {}
+
+/// The estimates of NEON, 2⁻⁸, with a step of Newton's: 2⁻¹⁶.
+#[cfg(target_arch = "aarch64")]
+impl Lanes for fearless_simd::Neon {
+    #[inline(always)]
+    fn fused(a: Wide<Self>, b: Wide<Self>, c: Wide<Self>) -> Wide<Self> {
+        Wide(a.0.mul_add(b.0, c.0))
+    }
+    #[inline(always)]
+    fn recip(x: Wide<Self>) -> Wide<Self> {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn estimate(simd: Neon, x: float32x4_t) -> float32x4_t {
+                let y = vrecpeq_f32(x);
+                vmulq_f32(y, vrecpsq_f32(x, y))
+            }
+        );
+        let simd = x.0.token();
+        Wide(estimate(simd, x.0.into()).simd_into(simd))
+    }
+    #[inline(always)]
+    fn divide(a: Wide<Self>, b: Wide<Self>) -> Wide<Self> {
+        a * Self::recip(b)
+    }
+    #[inline(always)]
+    fn rsqrt<P: Rough>(x: Wide<Self>) -> Wide<Self> {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn estimate(simd: Neon, x: float32x4_t) -> float32x4_t {
+                let y = vrsqrteq_f32(x);
+                vmulq_f32(y, vrsqrtsq_f32(vmulq_f32(x, y), y))
+            }
+        );
+        let simd = x.0.token();
+        Wide(estimate(simd, x.0.into()).simd_into(simd))
+    }
+}
+#[cfg(target_arch = "aarch64")]
+use core::arch::aarch64::*;
+#[cfg(target_arch = "aarch64")]
+use fearless_simd::SimdInto as _;
+
+/// The estimates of x86, as they come: 2⁻¹⁴ with AVX-512, 1.5·2⁻¹² before.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+macro_rules! x86_lanes {
+    ($($level:ident, $register:ident, $rcp:ident, $rsqrt:ident;)+) => {$(
+        impl Lanes for fearless_simd::$level {
+            #[inline(always)]
+            fn fused(a: Wide<Self>, b: Wide<Self>, c: Wide<Self>) -> Wide<Self> {
+                // In one rounding from AVX2 on, in two before.
+                Wide(a.0.mul_add(b.0, c.0))
+            }
+            #[inline(always)]
+            fn recip(x: Wide<Self>) -> Wide<Self> {
+                fearless_simd::kernel!(
+                    #[inline(always)]
+                    fn estimate(simd: $level, x: $register) -> $register {
+                        $rcp(x)
+                    }
+                );
+                let simd = x.0.token();
+                Wide(estimate(simd, x.0.into()).simd_into(simd))
+            }
+            #[inline(always)]
+            fn divide(a: Wide<Self>, b: Wide<Self>) -> Wide<Self> {
+                a * Self::recip(b)
+            }
+            #[inline(always)]
+            fn sqrt(x: Wide<Self>) -> Wide<Self> {
+                // The estimate at 0 is infinite, and 0 · ∞ would be NaN.
+                x * Self::rsqrt::<super::Fast>(x.max(x.lift(f32::MIN_POSITIVE as f64)))
+            }
+            #[inline(always)]
+            fn rsqrt<P: Rough>(x: Wide<Self>) -> Wide<Self> {
+                fearless_simd::kernel!(
+                    #[inline(always)]
+                    fn estimate(simd: $level, x: $register) -> $register {
+                        $rsqrt(x)
+                    }
+                );
+                let simd = x.0.token();
+                Wide(estimate(simd, x.0.into()).simd_into(simd))
+            }
+        }
+    )+};
+}
+#[cfg(target_arch = "x86")]
+use core::arch::x86::*;
+#[cfg(target_arch = "x86_64")]
+use core::arch::x86_64::*;
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+use fearless_simd::SimdInto as _;
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+x86_lanes! {
+    Sse2, __m128, _mm_rcp_ps, _mm_rsqrt_ps;
+    Sse4_2, __m128, _mm_rcp_ps, _mm_rsqrt_ps;
+    Avx2, __m256, _mm256_rcp_ps, _mm256_rsqrt_ps;
+    Avx512, __m512, _mm512_rcp14_ps, _mm512_rsqrt14_ps;
 }

@@ -1,0 +1,193 @@
+//! What goes into a batch and comes out: structures of slices.
+
+use crate::{Rgb, Vec3};
+
+/// How many slices a kernel may read, and how many it may write.
+pub(super) const MAX_INPUTS: usize = 32;
+pub(super) const MAX_OUTPUTS: usize = 8;
+
+/// The slices of a batch, in order.
+pub(super) type Slices<'a> = [&'a [f32]; MAX_INPUTS];
+pub(super) type SlicesMut<'a> = [&'a mut [f32]; MAX_OUTPUTS];
+
+/// A structure of slices, one number of each slice for each point of a batch.
+///
+/// `&[f32]`, [`Uniform`], and [`Vec3`], [`Rgb`] and tuples of columns. There may be up to 32 slices in one.
+pub trait Columns: Copy {
+    /// What a point has: the structure with a number in place of each slice.
+    type At<R>;
+    /// How many slices there are.
+    const COUNT: usize;
+    /// Calls `f` for each slice, in order, until it fails.
+    ///
+    /// # Errors
+    /// What `f` returns.
+    fn visit<'a, E>(&'a self, f: &mut impl FnMut(&'a [f32]) -> Result<(), E>) -> Result<(), E>;
+    /// One point: `next` gives the number of the next slice, `uniform` that of a [`Uniform`].
+    fn load<R>(&self, next: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R>;
+}
+
+/// A structure of slices to write to.
+///
+/// `&mut [f32]`, and [`Vec3`], [`Rgb`] and pairs of them. There may be up to 8 slices in one.
+pub trait ColumnsMut {
+    /// What is written to a point.
+    type At<R>;
+    /// How many slices there are.
+    const COUNT: usize;
+    /// Calls `f` for each slice, in order, until it fails.
+    ///
+    /// # Errors
+    /// What `f` returns.
+    fn visit<E>(&self, f: &mut impl FnMut(&[f32]) -> Result<(), E>) -> Result<(), E>;
+    /// Hands each slice over, in order.
+    fn take<'a>(self, f: &mut impl FnMut(&'a mut [f32]))
+    where
+        Self: 'a;
+    /// Hands over the number that goes to each slice, in order.
+    fn store<R>(value: Self::At<R>, next: &mut impl FnMut(R));
+}
+
+/// The same number for every point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uniform(pub f32);
+
+impl Columns for &[f32] {
+    type At<R> = R;
+    const COUNT: usize = 1;
+    #[inline(always)]
+    fn visit<'a, E>(&'a self, f: &mut impl FnMut(&'a [f32]) -> Result<(), E>) -> Result<(), E> {
+        f(self)
+    }
+    #[inline(always)]
+    fn load<R>(&self, next: &mut impl FnMut() -> R, _: &impl Fn(f32) -> R) -> R {
+        next()
+    }
+}
+
+impl Columns for Uniform {
+    type At<R> = R;
+    const COUNT: usize = 0;
+    #[inline(always)]
+    fn visit<'a, E>(&'a self, _: &mut impl FnMut(&'a [f32]) -> Result<(), E>) -> Result<(), E> {
+        Ok(())
+    }
+    #[inline(always)]
+    fn load<R>(&self, _: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> R {
+        uniform(self.0)
+    }
+}
+
+impl ColumnsMut for &mut [f32] {
+    type At<R> = R;
+    const COUNT: usize = 1;
+    #[inline(always)]
+    fn visit<E>(&self, f: &mut impl FnMut(&[f32]) -> Result<(), E>) -> Result<(), E> {
+        f(self)
+    }
+    #[inline(always)]
+    fn take<'a>(self, f: &mut impl FnMut(&'a mut [f32]))
+    where
+        Self: 'a,
+    {
+        f(self);
+    }
+    #[inline(always)]
+    fn store<R>(value: R, next: &mut impl FnMut(R)) {
+        next(value);
+    }
+}
+
+/// Structures of columns are columns, field by field.
+macro_rules! structures {
+    ($($name:ident { $($field:ident),+ };)+) => {$(
+        impl<C: Columns> Columns for $name<C> {
+            type At<R> = $name<C::At<R>>;
+            const COUNT: usize = 3 * C::COUNT;
+            #[inline(always)]
+            fn visit<'a, E>(&'a self, f: &mut impl FnMut(&'a [f32]) -> Result<(), E>) -> Result<(), E> {
+                $(self.$field.visit(f)?;)+
+                Ok(())
+            }
+            #[inline(always)]
+            fn load<R>(&self, next: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
+                $name { $($field: self.$field.load(next, uniform)),+ }
+            }
+        }
+
+        impl<C: ColumnsMut> ColumnsMut for $name<C> {
+            type At<R> = $name<C::At<R>>;
+            const COUNT: usize = 3 * C::COUNT;
+            #[inline(always)]
+            fn visit<E>(&self, f: &mut impl FnMut(&[f32]) -> Result<(), E>) -> Result<(), E> {
+                $(self.$field.visit(f)?;)+
+                Ok(())
+            }
+            #[inline(always)]
+            fn take<'a>(self, f: &mut impl FnMut(&'a mut [f32]))
+            where
+                Self: 'a,
+            {
+                $(self.$field.take(f);)+
+            }
+            #[inline(always)]
+            fn store<R>(value: Self::At<R>, next: &mut impl FnMut(R)) {
+                $(C::store(value.$field, next);)+
+            }
+        }
+    )+};
+}
+structures! {
+    Vec3 { x, y, z };
+    Rgb { r, g, b };
+}
+
+/// Tuples of columns are columns.
+macro_rules! tuples {
+    ($(($($name:ident $index:tt),+);)+) => {$(
+        impl<$($name: Columns),+> Columns for ($($name,)+) {
+            type At<R> = ($($name::At<R>,)+);
+            const COUNT: usize = 0 $(+ $name::COUNT)+;
+            #[inline(always)]
+            fn visit<'a, E>(&'a self, f: &mut impl FnMut(&'a [f32]) -> Result<(), E>) -> Result<(), E> {
+                $(self.$index.visit(f)?;)+
+                Ok(())
+            }
+            #[inline(always)]
+            fn load<R>(&self, next: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
+                ($(self.$index.load(next, uniform),)+)
+            }
+        }
+
+        impl<$($name: ColumnsMut),+> ColumnsMut for ($($name,)+) {
+            type At<R> = ($($name::At<R>,)+);
+            const COUNT: usize = 0 $(+ $name::COUNT)+;
+            #[inline(always)]
+            fn visit<Error>(&self, f: &mut impl FnMut(&[f32]) -> Result<(), Error>) -> Result<(), Error> {
+                $(self.$index.visit(f)?;)+
+                Ok(())
+            }
+            #[inline(always)]
+            fn take<'a>(self, f: &mut impl FnMut(&'a mut [f32]))
+            where
+                Self: 'a,
+            {
+                $(self.$index.take(f);)+
+            }
+            #[inline(always)]
+            fn store<R>(value: Self::At<R>, next: &mut impl FnMut(R)) {
+                $($name::store(value.$index, next);)+
+            }
+        }
+    )+};
+}
+tuples! {
+    (A 0);
+    (A 0, B 1);
+    (A 0, B 1, C 2);
+    (A 0, B 1, C 2, D 3);
+    (A 0, B 1, C 2, D 3, F 4);
+    (A 0, B 1, C 2, D 3, F 4, G 5);
+    (A 0, B 1, C 2, D 3, F 4, G 5, H 6);
+    (A 0, B 1, C 2, D 3, F 4, G 5, H 6, I 7);
+}
