@@ -44,14 +44,20 @@ fn main() {
             times[k].push(start.elapsed().as_secs_f64() * 1e9 / (8 * COUNT) as f64);
             k += 1;
         };
-        time(&mut |l, v, out| plain_loop(&plain, l, v, out));
+        time(&mut |l, v, out| plain_loop(&plain, l, v, out.r, out.g, out.b));
         for batch in &levels {
             time(&mut |l, v, out| batch.eval_cos(&ours, l, v, out).unwrap());
             time(&mut |l, v, out| batch.precision::<Fast>().eval_cos(&ours, l, v, out).unwrap());
             time(&mut |l, v, out| batch.precision::<Coarse>().eval_cos(&ours, l, v, out).unwrap());
         }
     }
-    let medians: Vec<f64> = times.iter_mut().map(|t| { t.sort_by(f64::total_cmp); t[t.len() / 2] }).collect();
+    let medians: Vec<f64> = times
+        .iter_mut()
+        .map(|t| {
+            t.sort_by(f64::total_cmp);
+            t[t.len() / 2]
+        })
+        .collect();
     println!("plain {:.3} ns", medians[0]);
     for (i, m) in medians[1..].chunks(3).enumerate() {
         println!("{:?}", levels[i].level());
@@ -62,23 +68,26 @@ fn main() {
 }
 
 #[inline(never)]
-fn plain_loop(lobe: &plain::Ggx, l: Vec3<&[f32]>, v: Vec3<&[f32]>, out: Rgb<&mut [f32]>) {
+fn plain_loop(lobe: &plain::Ggx, l: Vec3<&[f32]>, v: Vec3<&[f32]>, r: &mut [f32], g: &mut [f32], b: &mut [f32]) {
     let n = l.x.len();
     let (lx, ly, lz) = (&l.x[..n], &l.y[..n], &l.z[..n]);
     let (vx, vy, vz) = (&v.x[..n], &v.y[..n], &v.z[..n]);
-    let (r, g, b) = (&mut out.r[..n], &mut out.g[..n], &mut out.b[..n]);
+    let (r, g, b) = (&mut r[..n], &mut g[..n], &mut b[..n]);
+    let lobe = *lobe;
     for i in 0..n {
         let (l, v) = (glam::Vec3::new(lx[i], ly[i], lz[i]), glam::Vec3::new(vx[i], vy[i], vz[i]));
-        let h = (l + v).normalize();
+        let s = l + v;
+        let h = s * (1.0 / s.dot(s).sqrt());
         let a2 = lobe.alpha * lobe.alpha;
         let q = h.z * h.z * (a2 - 1.0) + 1.0;
         let d = a2 / (std::f32::consts::PI * q * q);
         let masked = |c: f32| (c * c * (1.0 - a2) + a2).sqrt();
-        let visibility = 0.5 / (l.z * masked(v.z) + v.z * masked(l.z));
+        let (nl, nv) = (l.z.max(1e-6), v.z.max(1e-6));
+        let visibility = 0.5 / (nl * masked(nv) + nv * masked(nl));
         let x = 1.0 - v.dot(h);
         let x2 = x * x;
         let fresnel = lobe.f0 + (glam::Vec3::ONE - lobe.f0) * (x2 * x2 * x);
-        let w = if l.z > 0.0 && v.z > 0.0 { d * visibility * l.z } else { 0.0 };
+        let w = d * visibility * nl;
         let f = fresnel * w;
         r[i] = f.x;
         g[i] = f.y;

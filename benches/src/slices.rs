@@ -12,7 +12,14 @@ impl Slices {
     pub fn new(count: usize) -> Self {
         let pairs = crate::directions(count);
         let column = |f: fn(&(glam::Vec3, glam::Vec3)) -> f32| pairs.iter().map(f).collect();
-        Self([column(|p| p.0.x), column(|p| p.0.y), column(|p| p.0.z), column(|p| p.1.x), column(|p| p.1.y), column(|p| p.1.z)])
+        Self([
+            column(|p| p.0.x),
+            column(|p| p.0.y),
+            column(|p| p.0.z),
+            column(|p| p.1.x),
+            column(|p| p.1.y),
+            column(|p| p.1.z),
+        ])
     }
 
     /// The directions to the light.

@@ -134,7 +134,7 @@ fn f_term(
     };
     let incidence = Incidence::of(w);
     // The same two numbers, so that the error is that of the term.
-    let exactly = Incidence { cos: f64::from(incidence.cos), sin2: f64::from(incidence.sin2) };
+    let exactly = Incidence::new(f64::from(incidence.cos), f64::from(incidence.sin2));
     let exact = double.fresnel(exactly).g;
     let allowed = if exact < 1e-30 { f64::INFINITY } else { allowed(exactly, exact) };
     Sample { value: single.fresnel(incidence).g, exact, allowed, parameters, direction: w }
@@ -152,7 +152,7 @@ fn fraction(random: &mut Random) -> f32 {
 
 fn schlick(f0: f32, cos: Incidence<f64>) -> f64 {
     let f0 = f64::from(f0);
-    f0 + (1.0 - f0) * cos.one_minus_cos().powi(5)
+    f0 + (1.0 - f0) * cos.one_minus_cos.powi(5)
 }
 
 /// Name, bound, parameters, and how to draw a value; whether it ends at 1.
@@ -259,7 +259,7 @@ const TERMS: [(&str, &str, &str, bool, Draw); 17] = [
             Lazanyi::new(grey(f64::from(f0)), grey(f64::from(a)), f64::from(alpha)),
         );
         f_term(both, vec![f0, a, alpha], random, |at, f| {
-            let less = f64::from(a) * at.cos * at.one_minus_cos().powf(f64::from(alpha));
+            let less = f64::from(a) * at.cos * at.one_minus_cos.powf(f64::from(alpha));
             1e-6 * (schlick(f0, at) + less) / f
         })
     }),

@@ -36,9 +36,9 @@
 //! # assert!(variant.radiance(n, light.l, v, light.irradiance).r > 0.0);
 //! ```
 
-use crate::carry::carry;
 use crate::brdf::power::{self, Shininess};
 use crate::brdf::{Brdf, Lambert, Sum, above_horizon};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::{Vec3, mirror};

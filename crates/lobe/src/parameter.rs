@@ -1,7 +1,7 @@
 //! Newtypes for parameters that are known to be mixed up, and the published ways from one to the other.
 
-use crate::carry::carry;
 use crate::brdf::Shininess;
+use crate::carry::carry;
 use crate::number::Real;
 
 /// The width `α` of a microfacet distribution: the root mean square slope times √2 for Beckmann, the `α_g` of Walter et

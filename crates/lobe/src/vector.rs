@@ -38,7 +38,7 @@ impl<R: Real> Vec3<R> {
     /// `self · other`.
     #[inline(always)]
     pub fn dot(self, other: Self) -> R {
-        self.x * other.x + self.y * other.y + self.z * other.z
+        self.z.mul_add(other.z, self.y.mul_add(other.y, self.x * other.x))
     }
 
     /// `self × other`.

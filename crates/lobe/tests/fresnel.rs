@@ -9,8 +9,8 @@ const U: f64 = 1.0 / 16_777_216.0;
 
 /// The angle in `f32`, both numbers rounded from the same angle, and the same two numbers in `f64`.
 fn angle(cos: f64) -> (Incidence, Incidence<f64>) {
-    let single = Incidence { cos: cos as f32, sin2: ((1.0 - cos) * (1.0 + cos)) as f32 };
-    (single, Incidence { cos: f64::from(single.cos), sin2: f64::from(single.sin2) })
+    let single = Incidence::new(cos as f32, ((1.0 - cos) * (1.0 + cos)) as f32);
+    (single, Incidence::new(f64::from(single.cos), f64::from(single.sin2)))
 }
 
 /// Grazing, normal and between; exactly at the ends too.
@@ -163,7 +163,7 @@ proptest! {
         prop_assert!((value - exact).abs() <= 1e-6 * schlick + 1e-30, "f82: {value:e}, not {exact:e}, of {schlick:e}");
         let form = Lazanyi::new(grey(f0), grey(a), alpha);
         let (value, exact) = (f64::from(form.fresnel(at).g), form.map(f64::from).fresnel(wide).g);
-        let bump = f64::from(a) * wide.cos * wide.one_minus_cos().powf(f64::from(alpha));
+        let bump = f64::from(a) * wide.cos * wide.one_minus_cos.powf(f64::from(alpha));
         prop_assert!((value - exact).abs() <= 1e-6 * schlick.max(bump) + 1e-30, "Lazányi: {value:e}, not {exact:e}");
     }
 
@@ -287,7 +287,7 @@ fn the_ends_are_finite() {
 
 #[test]
 fn nan_stays() {
-    for at in [Incidence { cos: f32::NAN, sin2: f32::NAN }, Incidence::from_cos(f32::NAN)] {
+    for at in [Incidence::new(f32::NAN, f32::NAN), Incidence::from_cos(f32::NAN)] {
         let forms: [&dyn Fresnel<f32>; 7] = [
             &Dielectric::new(Ior(1.5)),
             &Conductor::new(grey(0.2), grey(3.0)),

@@ -476,7 +476,7 @@ fn a_recorder_prints_the_formula() {
     let expected = "t0 = l.x; t1 = l.y; t2 = l.z; t3 = v.x; t4 = v.y; t5 = v.z; t6 = albedo; \
         t7 = 0.3183098861837907; t8 = t5 < t2; t9 = select(t8, t5, t2); t10 = 0.0; t11 = t10 < t9; \
         t12 = select(t11, t7, t10); t13 = t0 + t3; t14 = t1 + t4; t15 = t2 + t5; t16 = t13 + t14; t17 = t16 + t15; \
-        t18 = t17 * t10; t19 = t12 + t18; t20 = t6 * t19";
+        t18 = t17 * t10; t19 = t18 + t12; t20 = t6 * t19";
     assert_eq!(source.join("; "), expected);
     assert_eq!((f.r.id, f.g.id, f.b.id), (20, 20, 20));
 }

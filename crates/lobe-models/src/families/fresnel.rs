@@ -134,7 +134,7 @@ pub(super) fn excess(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     };
     match p.choice(FORM.name) {
         "f82-tint" => of_schlick(Rgb::splat(0.0)),
-        "lazanyi" => of_schlick(p.rgb(A.name) * (at.cos * at.one_minus_cos().powf(p.number(EXPONENT.name)))),
+        "lazanyi" => of_schlick(p.rgb(A.name) * (at.cos * at.one_minus_cos.powf(p.number(EXPONENT.name)))),
         "conductor" => {
             let conductor = conductor(p);
             let (eta, k) = (<[f64; 3]>::from(conductor.eta()), <[f64; 3]>::from(conductor.k()));

@@ -23,8 +23,10 @@ pub trait Columns: Copy {
     /// # Errors
     /// What `f` returns.
     fn visit<'a, E>(&'a self, f: &mut impl FnMut(&'a [f32]) -> Result<(), E>) -> Result<(), E>;
-    /// One point: `next` gives the number of the next slice, `uniform` that of a [`Uniform`].
+    /// The structure of what `next` gives for each slice, in order, and `uniform` for each [`Uniform`].
     fn load<R>(&self, next: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R>;
+    /// The structure of `f` of what stands for each slice, and of `uniform` for each [`Uniform`].
+    fn map<A, R>(&self, from: &Self::At<A>, f: &impl Fn(&A) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R>;
 }
 
 /// A structure of slices to write to.
@@ -44,8 +46,10 @@ pub trait ColumnsMut {
     fn take<'a>(self, f: &mut impl FnMut(&'a mut [f32]))
     where
         Self: 'a;
-    /// Hands over the number that goes to each slice, in order.
-    fn store<R>(value: Self::At<R>, next: &mut impl FnMut(R));
+    /// The structure of what `next` gives for each slice, in order.
+    fn build<A>(next: &mut impl FnMut() -> A) -> Self::At<A>;
+    /// Calls `f` with what stands for each slice and the number that goes there.
+    fn store<A, R>(to: &mut Self::At<A>, value: Self::At<R>, f: &mut impl FnMut(&mut A, R));
 }
 
 /// The same number for every point.
@@ -63,6 +67,10 @@ impl Columns for &[f32] {
     fn load<R>(&self, next: &mut impl FnMut() -> R, _: &impl Fn(f32) -> R) -> R {
         next()
     }
+    #[inline(always)]
+    fn map<A, R>(&self, from: &A, f: &impl Fn(&A) -> R, _: &impl Fn(f32) -> R) -> R {
+        f(from)
+    }
 }
 
 impl Columns for Uniform {
@@ -74,6 +82,10 @@ impl Columns for Uniform {
     }
     #[inline(always)]
     fn load<R>(&self, _: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> R {
+        uniform(self.0)
+    }
+    #[inline(always)]
+    fn map<A, R>(&self, _: &A, _: &impl Fn(&A) -> R, uniform: &impl Fn(f32) -> R) -> R {
         uniform(self.0)
     }
 }
@@ -93,8 +105,12 @@ impl ColumnsMut for &mut [f32] {
         f(self);
     }
     #[inline(always)]
-    fn store<R>(value: R, next: &mut impl FnMut(R)) {
-        next(value);
+    fn build<A>(next: &mut impl FnMut() -> A) -> A {
+        next()
+    }
+    #[inline(always)]
+    fn store<A, R>(to: &mut A, value: R, f: &mut impl FnMut(&mut A, R)) {
+        f(to, value);
     }
 }
 
@@ -112,6 +128,10 @@ macro_rules! structures {
             #[inline(always)]
             fn load<R>(&self, next: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
                 $name { $($field: self.$field.load(next, uniform)),+ }
+            }
+            #[inline(always)]
+            fn map<A, R>(&self, from: &Self::At<A>, f: &impl Fn(&A) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
+                $name { $($field: self.$field.map(&from.$field, f, uniform)),+ }
             }
         }
 
@@ -131,8 +151,12 @@ macro_rules! structures {
                 $(self.$field.take(f);)+
             }
             #[inline(always)]
-            fn store<R>(value: Self::At<R>, next: &mut impl FnMut(R)) {
-                $(C::store(value.$field, next);)+
+            fn build<A>(next: &mut impl FnMut() -> A) -> Self::At<A> {
+                $name { $($field: C::build(next)),+ }
+            }
+            #[inline(always)]
+            fn store<A, R>(to: &mut Self::At<A>, value: Self::At<R>, f: &mut impl FnMut(&mut A, R)) {
+                $(C::store(&mut to.$field, value.$field, f);)+
             }
         }
     )+};
@@ -157,6 +181,10 @@ macro_rules! tuples {
             fn load<R>(&self, next: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
                 ($(self.$index.load(next, uniform),)+)
             }
+            #[inline(always)]
+            fn map<From, R>(&self, from: &Self::At<From>, f: &impl Fn(&From) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
+                ($(self.$index.map(&from.$index, f, uniform),)+)
+            }
         }
 
         impl<$($name: ColumnsMut),+> ColumnsMut for ($($name,)+) {
@@ -175,8 +203,12 @@ macro_rules! tuples {
                 $(self.$index.take(f);)+
             }
             #[inline(always)]
-            fn store<R>(value: Self::At<R>, next: &mut impl FnMut(R)) {
-                $($name::store(value.$index, next);)+
+            fn build<To>(next: &mut impl FnMut() -> To) -> Self::At<To> {
+                ($($name::build(next),)+)
+            }
+            #[inline(always)]
+            fn store<To, R>(to: &mut Self::At<To>, value: Self::At<R>, f: &mut impl FnMut(&mut To, R)) {
+                $($name::store(&mut to.$index, value.$index, f);)+
             }
         }
     )+};

@@ -20,55 +20,75 @@ use {
 trait Register: Estimate {
     /// What it is made with: the token of a SIMD level, or nothing.
     type Token: Copy;
+    /// Its numbers in memory.
+    type Array: AsRef<[f32]>;
     /// How many numbers it holds.
     const LANES: usize;
     /// The same number in every lane.
     fn splat(token: Self::Token, x: f32) -> Self;
-    /// The first `LANES` numbers of a slice; 0 if there are fewer, which does not happen.
-    fn read(token: Self::Token, slice: &[f32]) -> Self;
-    /// Writes the lanes to the first `LANES` numbers of a slice.
-    fn write(self, slice: &mut [f32]);
+    fn read(token: Self::Token, array: &Self::Array) -> Self;
+    fn write(self, array: &mut Self::Array);
+    /// A slice as registers, without what does not fill one.
+    fn arrays(slice: &[f32]) -> &[Self::Array];
+    fn arrays_mut(slice: &mut [f32]) -> &mut [Self::Array];
     /// Runs `f` as code for this level. Not inlined: the instructions are another level's.
     fn run(token: Self::Token, f: impl FnOnce());
 }
 
-impl Register for f32 {
-    type Token = ();
-    const LANES: usize = 1;
-    #[inline(always)]
-    fn splat((): (), x: f32) -> f32 {
-        x
-    }
-    #[inline(always)]
-    fn read((): (), slice: &[f32]) -> f32 {
-        slice.first().copied().unwrap_or(0.0)
-    }
-    #[inline(always)]
-    fn write(self, slice: &mut [f32]) {
-        if let Some(x) = slice.first_mut() {
-            *x = self;
+/// The register of `LANES` lanes whose token is `Token`; `$splat`, `$read`, `$write` and `$run` are what differs.
+macro_rules! register {
+    ($register:ty, $lanes:literal, $token:ty, $splat:expr, $read:expr, $write:expr, $run:expr) => {
+        impl Register for $register {
+            type Token = $token;
+            type Array = [f32; $lanes];
+            const LANES: usize = $lanes;
+            #[inline(always)]
+            fn splat(token: $token, x: f32) -> Self {
+                $splat(token, x)
+            }
+            #[inline(always)]
+            fn read(token: $token, array: &[f32; $lanes]) -> Self {
+                $read(token, array)
+            }
+            #[inline(always)]
+            fn write(self, array: &mut [f32; $lanes]) {
+                $write(self, array);
+            }
+            #[inline(always)]
+            fn arrays(slice: &[f32]) -> &[[f32; $lanes]] {
+                slice.as_chunks().0
+            }
+            #[inline(always)]
+            fn arrays_mut(slice: &mut [f32]) -> &mut [[f32; $lanes]] {
+                slice.as_chunks_mut().0
+            }
+            #[inline(always)]
+            fn run(token: $token, f: impl FnOnce()) {
+                $run(token, f);
+            }
         }
-    }
-    #[inline(always)]
-    fn run((): (), f: impl FnOnce()) {
-        f();
-    }
+    };
+}
+register! {
+    f32, 1, (),
+    |(), x| x,
+    |(), &[x]: &[f32; 1]| x,
+    |x, [to]: &mut [f32; 1]| *to = x,
+    |(), f: _| call(f)
+}
+
+#[inline(always)]
+fn call(f: impl FnOnce()) {
+    f();
 }
 
 /// The widest register.
 const MAX_LANES: usize = 16;
 
-/// What becomes of a result: written, or added to what is there.
-#[derive(Clone, Copy, Debug)]
-pub enum Store {
-    Write,
-    Add,
-}
-
 /// The whole batch: what fills registers, and then the rest by way of buffers that are padded to one, through the same
-/// instructions.
-#[inline(always)]
-fn run<F, P, K, C, O>(token: F::Token, kernel: &K, inputs: C, outputs: O, store: Store, count: usize)
+/// instructions. With `ADD` the results are added to what is there.
+#[inline]
+fn run<F, P, K, C, O, const ADD: bool>(token: F::Token, kernel: &K, inputs: C, outputs: O, count: usize)
 where
     F: Register,
     P: Precision,
@@ -77,14 +97,7 @@ where
     K: Kernel<C::At<P::Of<F>>, O::At<P::Of<F>>>,
 {
     const { assert!(C::COUNT <= MAX_INPUTS && O::COUNT <= MAX_OUTPUTS, "too many slices in one batch") };
-    let mut slices: Slices<'_> = [&[]; MAX_INPUTS];
-    let mut places = slices.iter_mut();
-    let _ = inputs.visit(&mut |slice| -> Result<(), ()> {
-        if let Some(place) = places.next() {
-            *place = slice;
-        }
-        Ok(())
-    });
+    let slices = collect(&inputs);
     let mut out: SlicesMut<'_> = core::array::from_fn(|_| &mut [][..]);
     let mut places = out.iter_mut();
     outputs.take(&mut |slice| {
@@ -96,40 +109,43 @@ where
     let rest = count % F::LANES;
     let whole = count - rest;
     if whole > 0 {
-        chunks::<F, P, K, C, O>(token, kernel, &inputs, &slices, out.each_mut().map(|slice| &mut **slice), store, whole);
+        let out = out.each_mut().map(|slice| &mut **slice);
+        registers::<F, P, K, C, O, ADD>(token, kernel, inputs, &slices, out, whole / F::LANES);
     }
     if rest > 0 {
-        let mut padded = [[0.0; MAX_LANES]; MAX_INPUTS];
-        for (buffer, slice) in padded.iter_mut().zip(&slices) {
-            // The last number again and again, so that no lane holds anything that the caller did not give.
-            let tail = slice.get(whole..count).unwrap_or(&[]);
-            buffer.fill(tail.last().copied().unwrap_or(0.0));
-            buffer.iter_mut().zip(tail).for_each(|(to, from)| *to = *from);
-        }
-        let mut results = [[0.0; MAX_LANES]; MAX_OUTPUTS];
-        for (buffer, slice) in results.iter_mut().zip(&out) {
-            let tail = slice.get(whole..count).unwrap_or(&[]);
-            buffer.iter_mut().zip(tail).for_each(|(to, from)| *to = *from);
-        }
-        let buffers = padded.each_ref().map(|buffer| &buffer[..]);
-        let to = results.each_mut().map(|buffer| &mut buffer[..]);
-        chunks::<F, P, K, C, O>(token, kernel, &inputs, &buffers, to, store, F::LANES);
+        let padded = slices.map(|slice| padded(slice.get(whole..count).unwrap_or(&[])));
+        let mut results = out.each_ref().map(|slice| self::padded(slice.get(whole..count).unwrap_or(&[])));
+        let buffers = padded.each_ref().map(|buffer| buffer.get(..F::LANES).unwrap_or(&[]));
+        let to = results.each_mut().map(|buffer| buffer.get_mut(..F::LANES).unwrap_or(&mut []));
+        registers::<F, P, K, C, O, ADD>(token, kernel, inputs, &buffers, to, 1);
         for (buffer, slice) in results.iter().zip(&mut out) {
-            let tail = slice.get_mut(whole..count).unwrap_or(&mut []);
-            tail.iter_mut().zip(buffer).for_each(|(to, from)| *to = *from);
+            copy(slice.get_mut(whole..count).unwrap_or(&mut []), buffer);
         }
     }
 }
 
-/// `count` points, a multiple of the register's width.
+/// The slices of a structure, in order.
+#[inline(always)]
+fn collect<C: Columns>(columns: &C) -> Slices<'_> {
+    let mut slices: Slices<'_> = [&[]; MAX_INPUTS];
+    let mut places = slices.iter_mut();
+    let _ = columns.visit(&mut |slice| -> Result<(), ()> {
+        if let Some(place) = places.next() {
+            *place = slice;
+        }
+        Ok(())
+    });
+    slices
+}
+
+/// The `count` registers of each slice.
 #[inline(never)]
-fn chunks<F, P, K, C, O>(
+fn registers<F, P, K, C, O, const ADD: bool>(
     token: F::Token,
     kernel: &K,
-    inputs: &C,
+    inputs: C,
     slices: &Slices<'_>,
-    mut out: SlicesMut<'_>,
-    store: Store,
+    out: SlicesMut<'_>,
     count: usize,
 ) where
     F: Register,
@@ -138,31 +154,46 @@ fn chunks<F, P, K, C, O>(
     O: ColumnsMut,
     K: Kernel<C::At<P::Of<F>>, O::At<P::Of<F>>>,
 {
-    let slices = *slices;
-    let add = matches!(store, Store::Add);
     F::run(
         token,
         #[inline(always)]
-        || {
-            let mut start = 0;
-            while start + F::LANES <= count {
-                let mut from = slices.iter();
-                let input = inputs.load(
-                    &mut || {
-                        let chunk = from.next().and_then(|slice| slice.get(start..start + F::LANES));
-                        P::number(chunk.map_or_else(|| F::splat(token, 0.0), |chunk| F::read(token, chunk)))
+        move || {
+            // Said once, and slice by slice without a loop, so that the compiler knows it below: or it would check every
+            // access for itself, nine jumps for each register.
+            let mut known = true;
+            let mut from = slices.iter();
+            let arrays = inputs.load(
+                &mut || {
+                    let arrays = from.next().map_or(&[][..], |slice| F::arrays(slice));
+                    known &= arrays.len() == count;
+                    arrays
+                },
+                &|_| &[],
+            );
+            let mut to = out.into_iter();
+            let mut results = O::build(&mut || {
+                let arrays = to.next().map_or(&mut [][..], |slice| F::arrays_mut(slice));
+                known &= arrays.len() == count;
+                arrays
+            });
+            if !known {
+                return;
+            }
+            for i in 0..count {
+                let input = inputs.map(
+                    &arrays,
+                    &|arrays| {
+                        P::number(arrays.get(i).map_or_else(|| F::splat(token, 0.0), |array| F::read(token, array)))
                     },
                     &|x| P::number(F::splat(token, x)),
                 );
-                let mut to = out.iter_mut();
-                O::store(kernel.apply(input), &mut |result| {
-                    if let Some(chunk) = to.next().and_then(|slice| slice.get_mut(start..start + F::LANES)) {
+                O::store(&mut results, kernel.apply(input), &mut |arrays, result| {
+                    if let Some(array) = arrays.get_mut(i) {
                         let result = P::value(result);
-                        let sum = if add { F::read(token, chunk) + result } else { result };
-                        sum.write(chunk);
+                        let sum = if ADD { F::read(token, array) + result } else { result };
+                        sum.write(array);
                     }
                 });
-                start += F::LANES;
             }
         },
     );
@@ -187,64 +218,59 @@ fn run_lights<F, P, K, L>(
         token,
         #[inline(always)]
         || {
-            let mut start = 0;
-            while start < count {
-                let end = (start + F::LANES).min(count);
-                let read = |slice: &[f32]| P::number(read_padded::<F>(token, slice, start, end));
+            for i in 0..count.div_ceil(F::LANES) {
+                let read = |slice: &[f32]| P::number(read_padded::<F>(token, slice, i));
                 let v = v.map(read);
                 let mut sum = Rgb { r: read(out.r), g: read(out.g), b: read(out.b) };
                 for light in lights {
-                    let mut slices: Slices<'_> = [&[]; MAX_INPUTS];
-                    let mut places = slices.iter_mut();
-                    let _ = light.visit(&mut |slice| -> Result<(), ()> {
-                        if let Some(place) = places.next() {
-                            *place = slice;
-                        }
-                        Ok(())
-                    });
+                    let slices = collect(light);
                     let mut from = slices.iter();
-                    let light = light.load(
-                        &mut || from.next().map_or_else(|| read(&[]), |slice| read(slice)),
-                        &|x| P::number(F::splat(token, x)),
-                    );
+                    let light = light.load(&mut || from.next().map_or_else(|| read(&[]), |slice| read(slice)), &|x| {
+                        P::number(F::splat(token, x))
+                    });
                     sum = sum + kernel.apply((v, light));
                 }
-                write_partly(P::value(sum.r), out.r, start, end);
-                write_partly(P::value(sum.g), out.g, start, end);
-                write_partly(P::value(sum.b), out.b, start, end);
-                start = end;
+                write_partly(P::value(sum.r), out.r, i);
+                write_partly(P::value(sum.g), out.g, i);
+                write_partly(P::value(sum.b), out.b, i);
             }
         },
     );
 }
 
-/// The numbers of a slice from `start` to `end`, the last one again and again in the lanes that are left.
+/// The `i`th register of a slice, or what is left of one.
 #[inline(always)]
-fn read_padded<F: Register>(token: F::Token, slice: &[f32], start: usize, end: usize) -> F {
-    match slice.get(start..start + F::LANES) {
-        Some(whole) => F::read(token, whole),
-        None => F::read(token, &padded(slice.get(start..end).unwrap_or(&[]))),
+fn read_padded<F: Register>(token: F::Token, slice: &[f32], i: usize) -> F {
+    match F::arrays(slice).get(i) {
+        Some(array) => F::read(token, array),
+        None => {
+            let buffer = padded(slice.get(i * F::LANES..).unwrap_or(&[]));
+            F::arrays(&buffer).first().map_or_else(|| F::splat(token, 0.0), |array| F::read(token, array))
+        }
     }
 }
 
+/// Writes as many lanes as the slice has room for, from its `i`th register on.
+#[inline(always)]
+fn write_partly<F: Register>(lanes: F, slice: &mut [f32], i: usize) {
+    if let Some(array) = F::arrays_mut(slice).get_mut(i) {
+        lanes.write(array);
+    } else {
+        let mut buffer = [0.0; MAX_LANES];
+        if let Some(array) = F::arrays_mut(&mut buffer).first_mut() {
+            lanes.write(array);
+        }
+        copy(slice.get_mut(i * F::LANES..).unwrap_or(&mut []), &buffer);
+    }
+}
+
+/// A register with the last number again and again, so that no lane holds anything that the caller did not give.
 #[cold]
 #[inline(never)]
 fn padded(tail: &[f32]) -> [f32; MAX_LANES] {
     let mut buffer = [tail.last().copied().unwrap_or(0.0); MAX_LANES];
-    buffer.iter_mut().zip(tail).for_each(|(to, from)| *to = *from);
+    copy(&mut buffer, tail);
     buffer
-}
-
-/// Writes as many lanes as there are numbers from `start` to `end`.
-#[inline(always)]
-fn write_partly<F: Register>(lanes: F, slice: &mut [f32], start: usize, end: usize) {
-    if let Some(whole) = slice.get_mut(start..start + F::LANES) {
-        lanes.write(whole);
-    } else {
-        let mut buffer = [0.0; MAX_LANES];
-        lanes.write(&mut buffer);
-        copy(slice.get_mut(start..end).unwrap_or(&mut []), &buffer);
-    }
 }
 
 #[cold]
@@ -261,10 +287,10 @@ pub trait AtEveryLevel<P: Precision, C: Columns, O: ColumnsMut>: Sealed<P, C, O>
 pub trait LightsAtEveryLevel<P: Precision, L: Columns>: SealedLights<P, L> {}
 
 mod sealed {
-    use super::{Columns, ColumnsMut, Level, Precision, Rgb, Store, Vec3};
+    use super::{Columns, ColumnsMut, Level, Precision, Rgb, Vec3};
 
     pub trait Sealed<P: Precision, C: Columns, O: ColumnsMut> {
-        fn run_at(&self, level: Level, inputs: C, outputs: O, store: Store, count: usize);
+        fn run_at<const ADD: bool>(&self, level: Level, inputs: C, outputs: O, count: usize);
     }
 
     pub trait SealedLights<P: Precision, L: Columns> {
@@ -275,7 +301,7 @@ pub(super) use sealed::{Sealed, SealedLights};
 
 /// The levels of an architecture, from the best; a level that is not among them runs the scalar.
 macro_rules! levels {
-    ($($variant:ident => $register:ty),*) => {
+    ($($variant:ident => $register:ty, $lanes:literal);*) => {
         impl<P, C, O, K> Sealed<P, C, O> for K
         where
             P: Precision,
@@ -285,11 +311,11 @@ macro_rules! levels {
             $(K: Kernel<C::At<P::Of<$register>>, O::At<P::Of<$register>>>,)*
         {
             #[inline]
-            fn run_at(&self, level: Level, inputs: C, outputs: O, store: Store, count: usize) {
+            fn run_at<const ADD: bool>(&self, level: Level, inputs: C, outputs: O, count: usize) {
                 match level {
-                    $(Level::$variant(simd) => run::<$register, P, K, C, O>(simd, self, inputs, outputs, store, count),)*
+                    $(Level::$variant(simd) => run::<$register, P, K, C, O, ADD>(simd, self, inputs, outputs, count),)*
                     #[allow(unreachable_patterns, reason = "where the target has a level built in, lower ones do not exist")]
-                    _ => run::<f32, P, K, C, O>((), self, inputs, outputs, store, count),
+                    _ => run::<f32, P, K, C, O, ADD>((), self, inputs, outputs, count),
                 }
             }
         }
@@ -330,30 +356,12 @@ macro_rules! levels {
         {
         }
 
-        $(impl Register for $register {
-            type Token = fearless_simd::$variant;
-            const LANES: usize = Self::LANES;
-            #[inline(always)]
-            fn splat(simd: Self::Token, x: f32) -> Self {
-                Wide::splat(simd, x)
-            }
-            #[inline(always)]
-            fn read(simd: Self::Token, slice: &[f32]) -> Self {
-                match slice.get(..Self::LANES) {
-                    Some(whole) => Wide(SimdBase::from_slice(simd, whole)),
-                    None => Wide::splat(simd, 0.0),
-                }
-            }
-            #[inline(always)]
-            fn write(self, slice: &mut [f32]) {
-                if let Some(whole) = slice.get_mut(..Self::LANES) {
-                    self.0.store_slice(whole);
-                }
-            }
-            #[inline(always)]
-            fn run(simd: Self::Token, f: impl FnOnce()) {
-                Simd::vectorize(simd, f);
-            }
+        $(register! {
+            $register, $lanes, fearless_simd::$variant,
+            Wide::splat,
+            |simd, array| Wide(SimdBase::from_slice(simd, array)),
+            |lanes: $register, array| lanes.0.store_slice(array),
+            |simd, f: _| Simd::vectorize(simd, f)
         })*
     };
 }
@@ -362,14 +370,14 @@ macro_rules! levels {
 // stops there, and every level more is code.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 levels! {
-    Avx512 => Wide<fearless_simd::Avx512>,
-    Avx2 => Wide<fearless_simd::Avx2>,
-    Sse4_2 => Wide<fearless_simd::Sse4_2>
+    Avx512 => Wide<fearless_simd::Avx512>, 16;
+    Avx2 => Wide<fearless_simd::Avx2>, 8;
+    Sse4_2 => Wide<fearless_simd::Sse4_2>, 4
 }
 #[cfg(target_arch = "aarch64")]
-levels! { Neon => Wide<fearless_simd::Neon> }
+levels! { Neon => Wide<fearless_simd::Neon>, 4 }
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-levels! { WasmSimd128 => Wide<fearless_simd::WasmSimd128> }
+levels! { WasmSimd128 => Wide<fearless_simd::WasmSimd128>, 4 }
 #[cfg(not(any(
     target_arch = "x86",
     target_arch = "x86_64",

@@ -67,8 +67,8 @@ mod level;
 pub use columns::{Columns, ColumnsMut, Uniform};
 pub use fearless_simd::Level;
 pub use kernel::{Eval, EvalCos, InWorld, Kernel, OneChannel, Shade};
+use level::SealedLights as _;
 pub use level::{AtEveryLevel, LightsAtEveryLevel};
-use level::{SealedLights as _, Store};
 
 use crate::number::{Precise, Precision};
 use crate::{Rgb, Vec3};
@@ -148,7 +148,7 @@ impl<P: Precision> Batch<P> {
         K: AtEveryLevel<P, C, O>,
     {
         let count = common_length(&inputs, &outputs)?;
-        kernel.run_at(self.level, inputs, outputs, Store::Write, count);
+        kernel.run_at::<false>(self.level, inputs, outputs, count);
         Ok(())
     }
 
@@ -164,7 +164,7 @@ impl<P: Precision> Batch<P> {
         K: AtEveryLevel<P, C, O>,
     {
         let count = common_length(&inputs, &outputs)?;
-        kernel.run_at(self.level, inputs, outputs, Store::Add, count);
+        kernel.run_at::<true>(self.level, inputs, outputs, count);
         Ok(())
     }
 

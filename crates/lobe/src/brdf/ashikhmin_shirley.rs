@@ -1,9 +1,9 @@
 //! Ashikhmin-Shirley: `f_r = √((nu+1)(nv+1))/(8π) · (n·h)^e F(l·h)/((l·h) max(n·l, n·v))`,
 //! `e = (nu h.x² + nv h.y²)/(1 − h.z²)`; and the diffuse lobe that goes with it.
 
-use crate::carry::carry;
 use super::power::half_vector_power;
 use super::{Brdf, Shininess, above_horizon, both_above, zero_or_nan};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::fresnel::{Fresnel, Incidence, Schlick};
 use crate::number::Real;

@@ -1,8 +1,8 @@
 //! Blinn 1977: `f_r (n·l) = ks F G D(h)/D(n) / (n·v)`.
 
+use super::{Brdf, Microfacet};
 use crate::Carry;
 use crate::carry::carry;
-use super::{Brdf, Microfacet};
 use crate::color::Rgb;
 use crate::distribution::Distribution;
 use crate::fresnel::Fresnel;

@@ -1,7 +1,7 @@
 //! Blinn-Phong: `f_r = ks N(q) · (n·h)^q`.
 
-use crate::carry::carry;
 use super::{Brdf, Shininess, power};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;

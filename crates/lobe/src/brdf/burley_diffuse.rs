@@ -1,8 +1,8 @@
 //! Burley's diffuse lobe: `f_r = ρ/π (1 + (F90 − 1)(1 − n·l)⁵)(1 + (F90 − 1)(1 − n·v)⁵)`, `F90 = 1/2 + 2 r cos² θ_d`.
 
-use crate::carry::carry;
 use super::{Brdf, above_horizon};
 use crate::PerceptualRoughness;
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::fresnel::fifth_power;
 use crate::number::Real;

@@ -1,8 +1,8 @@
 //! Charlie sheen: `f_r = c D V`, `D = (2 + 1/α)/(2π) sin^(1/α) θ_h`, `V = 1/(4 (n·l)(n·v)(1 + Λ(l) + Λ(v)))`.
 
-use crate::carry::carry;
 use super::{Brdf, both_above, power, zero_or_nan};
 use crate::Alpha;
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;

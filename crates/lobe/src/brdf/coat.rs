@@ -1,8 +1,8 @@
 //! A coat: `f = f_top + (1 − F(n·l)) (1 − F(n·v)) f_base`.
 
+use super::{Brdf, above_horizon};
 use crate::Carry;
 use crate::carry::carry;
-use super::{Brdf, above_horizon};
 use crate::color::Rgb;
 use crate::fresnel::{Fresnel, Incidence};
 use crate::number::Real;

@@ -1,9 +1,9 @@
 //! Cook-Torrance: `f_r = F D G/(π (n·l)(n·v))`, with D Beckmann's and G that of V-cavities.
 
-use crate::Carry;
-use crate::carry::carry;
 use super::{Brdf, Microfacet};
 use crate::Alpha;
+use crate::Carry;
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::distribution::Beckmann;
 use crate::fresnel::Fresnel;

@@ -1,8 +1,8 @@
 //! EON: Fujii's form of Oren-Nayar and the light that it loses,
 //! `f_r = ρ/π A (1 + r s/t) + ρₘ/π (1 − E(l))(1 − E(v))/(1 − Ē)`.
 
-use crate::carry::carry;
 use super::{Brdf, above_horizon, plane};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;

@@ -1,12 +1,13 @@
 //! glTF 2.0: `mix(fresnel_mix(ρ/π, S), F_metal S, metallic)`, `S` a GGX without Fresnel.
 
-use crate::Carry;
-use crate::carry::carry;
+use super::microfacet::Facet;
 use super::{Brdf, above_horizon};
 use crate::Alpha;
+use crate::Carry;
+use crate::carry::carry;
 use crate::color::Rgb;
-use crate::distribution::{Distribution, Ggx};
-use crate::fresnel::{Incidence, fifth_power};
+use crate::distribution::{Distribution, Ggx, GgxAnisotropic};
+use crate::fresnel::{Incidence, fifth_power, one_minus_fifth_power};
 use crate::masking::{Masking, SmithCorrelated, SmithSeparable};
 use crate::number::Real;
 use crate::vector::Vec3;
@@ -42,10 +43,10 @@ use core::f64::consts::FRAC_1_PI;
 /// assert!(f.r > f.g && f.g > f.b);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MetallicRoughness<R = f32, G = SmithSeparable> {
+pub struct MetallicRoughness<R = f32, G = SmithSeparable, D = Ggx<R>> {
     base_color: Rgb<R>,
     metallic: R,
-    distribution: Ggx<R>,
+    distribution: D,
     masking: G,
     /// `f0` of the dielectric, at most 1.
     f0: Rgb<R>,
@@ -53,7 +54,7 @@ pub struct MetallicRoughness<R = f32, G = SmithSeparable> {
     specular: R,
 }
 
-carry!([G: Carry] MetallicRoughness<f32, G> => MetallicRoughness<S, G::In<S>> {
+carry!([G: Carry, D: Carry] MetallicRoughness<f32, G, D> => MetallicRoughness<S, G::In<S>, D::In<S>> {
     base_color, metallic, distribution, masking, f0, specular
 });
 
@@ -76,8 +77,8 @@ impl<R: Real> MetallicRoughness<R> {
     ///
     /// The rotation of the extension is that of the tangent frame: it is the caller's.
     #[inline(always)]
-    pub fn with_anisotropy(self, strength: R) -> MetallicRoughness<R, SmithCorrelated> {
-        let (alpha, _) = self.distribution.alpha();
+    pub fn with_anisotropy(self, strength: R) -> MetallicRoughness<R, SmithCorrelated, GgxAnisotropic<R>> {
+        let alpha = self.distribution.alpha();
         let s2 = strength.squared();
         let along = Alpha(alpha.0 * (s2.lift(1.0) - s2) + s2);
         MetallicRoughness {
@@ -91,7 +92,7 @@ impl<R: Real> MetallicRoughness<R> {
     }
 }
 
-impl<R: Real, G> MetallicRoughness<R, G> {
+impl<R: Real, G, D> MetallicRoughness<R, G, D> {
     /// `KHR_materials_ior` and `KHR_materials_specular`: `f0 = min(1, ((η − 1)/(η + 1))² colour)`, `w = weight`.
     ///
     /// Without the first, `η = 1.5`, where `f0 = 0.04`; without the second, white and 1.
@@ -105,13 +106,12 @@ impl<R: Real, G> MetallicRoughness<R, G> {
     #[inline(always)]
     fn weighted(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R>
     where
-        G: Masking<R, Ggx<R>>,
+        D: Distribution<R>,
+        G: Masking<R, D>,
     {
-        let (h, cos_d) = super::microfacet::unit_halfway(l, v);
-        let incidence = Incidence::halfway(l, v, cos_d);
-        let (x, one) = (incidence.one_minus_cos(), cos_d.lift(1.0));
-        let x5 = fifth_power(x);
-        let one_minus_x5 = cos_d * (one + x * (one + x * (one + x * (one + x))));
+        let (specular, incidence) = Facet::between(l, v).specular(&self.distribution, &self.masking, weight);
+        let one = weight.lift(1.0);
+        let (x5, one_minus_x5) = (fifth_power(incidence.one_minus_cos), one_minus_fifth_power(incidence));
 
         let white = Rgb::splat(one);
         let dielectric = (self.f0 + (white - self.f0) * x5) * self.specular;
@@ -123,8 +123,6 @@ impl<R: Real, G> MetallicRoughness<R, G> {
         let transmitted = (one - self.specular) + self.specular * (one - max_f0) * one_minus_x5;
         let diffuse = transmitted * (one - self.metallic) * weight.times(FRAC_1_PI);
 
-        let visibility = self.masking.visibility(&self.distribution, l, v, h, cos_d, weight);
-        let specular = self.distribution.d(h) * visibility;
         self.base_color * above_horizon(l, v, diffuse) + f * above_horizon(l, v, specular)
     }
 }
@@ -144,7 +142,7 @@ impl<R: Real> MetallicRoughness<R> {
     }
 }
 
-impl<R: Real, G: Masking<R, Ggx<R>>> Brdf<R> for MetallicRoughness<R, G> {
+impl<R: Real, D: Distribution<R>, G: Masking<R, D>> Brdf<R> for MetallicRoughness<R, G, D> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
         self.weighted(l, v, l.z.lift(1.0))
@@ -181,15 +179,12 @@ impl<B, R: Real> Clearcoat<B, R> {
     fn coated(&self, base: Rgb<R>, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R> {
         let one = weight.lift(1.0);
         let incidence = Incidence::of(v);
-        let x = incidence.one_minus_cos();
-        let x5 = fifth_power(x);
+        let x5 = fifth_power(incidence.one_minus_cos);
         let reflected = self.clearcoat * x5.times(0.96).plus(0.04);
         // 1 − c F, of positive terms.
-        let one_minus_x5 = v.z * (one + x * (one + x * (one + x * (one + x))));
-        let transmitted = (one - self.clearcoat) + self.clearcoat * one_minus_x5.times(0.96);
-        let (h, cos_d) = super::microfacet::unit_halfway(l, v);
-        let visibility = SmithSeparable.visibility(&self.distribution, l, v, h, cos_d, weight);
-        let coat = above_horizon(l, v, self.distribution.d(h) * visibility * reflected);
+        let transmitted = (one - self.clearcoat) + self.clearcoat * one_minus_fifth_power(incidence).times(0.96);
+        let (specular, _) = Facet::between(l, v).specular(&self.distribution, &SmithSeparable, weight);
+        let coat = above_horizon(l, v, specular * reflected);
         // Selected too: below the horizon the base is 0, and an x⁵ that is not a number there must not spoil it.
         base * above_horizon(l, v, transmitted) + Rgb::splat(coat)
     }

@@ -1,8 +1,8 @@
 //! He, Torrance, Sillion, Greenberg: `f_r = ks F S G D/(π (n·l)(n·v))`, diffraction by a rough surface, from the
 //! wave equation.
 
-use crate::carry::carry;
 use super::{Brdf, above_horizon};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::fresnel::{Dielectric, Fresnel, Incidence};
 use crate::number::Real;

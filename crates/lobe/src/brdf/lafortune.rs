@@ -1,8 +1,8 @@
 //! Lafortune: `f_r = ks N max(0, Cx l.x v.x + Cy l.y v.y + Cz l.z v.z)^q`.
 
-use crate::carry::carry;
 use super::power::mirror_power;
 use super::{Brdf, Shininess, both_above, zero_or_nan};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;

@@ -1,7 +1,7 @@
 //! Lambert: `f_r = ρ/π`.
 
-use crate::carry::carry;
 use super::{Brdf, above_horizon};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;

@@ -1,9 +1,9 @@
 //! Low, Kronander, Ynnerman, Unger: `f_r = A F(θ_d)/(1 + B |l_xy + v_xy|²)^C`, and with facets
 //! `f_r = A F(θ_d) G (1 + B (1 − n·h))^(−C)/(π (n·l)(n·v))`.
 
-use crate::carry::carry;
-use super::microfacet::unit_halfway;
+use super::microfacet::Facet;
 use super::{Brdf, above_horizon};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::fresnel::{Dielectric, Fresnel, Incidence};
 use crate::masking::{Masking, VCavity};
@@ -97,14 +97,15 @@ impl<R: Real> Brdf<R> for LowSmooth<R> {
         let cos2 = (deviation2 + (l.z.squared() + v.z.squared()).times(2.0)).times(0.25);
         let cos = cos2.sqrt().min(cos2.lift(1.0));
         let lobe = above_horizon(l, v, abc(self.b, self.c, deviation2));
-        self.fresnel.fresnel(Incidence { cos, sin2 }) * self.a * lobe
+        self.fresnel.fresnel(Incidence::new(cos, sin2)) * self.a * lobe
     }
 }
 
 impl<R: Real> LowMicrofacet<R> {
     #[inline(always)]
     fn weighted(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R> {
-        let (h, cos_d) = unit_halfway(l, v);
+        let facet = Facet::between(l, v);
+        let (h, cos_d) = (facet.normal(), facet.cos);
         let from_peak = (h.x.squared() + h.y.squared()) / h.z.plus(1.0);
         let visibility = VCavity.visibility(&(), l, v, h, cos_d, weight.times(4.0 / PI));
         let lobe = above_horizon(l, v, abc(self.b, self.c, from_peak) * visibility);

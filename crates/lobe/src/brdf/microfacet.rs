@@ -1,8 +1,8 @@
 //! The microfacet model of any terms: `f_r = D(h) F(l·h) G(l, v)/(4 (n·l)(n·v))`.
 
+use super::{Brdf, above_horizon};
 use crate::Carry;
 use crate::carry::carry;
-use super::{Brdf, above_horizon};
 use crate::color::Rgb;
 use crate::distribution::{Distribution, Gaussian};
 use crate::fresnel::{Fresnel, Incidence};
@@ -68,9 +68,9 @@ impl<D, G, F> Microfacet<D, G, F> {
         G: Masking<R, D>,
         F: Fresnel<R>,
     {
-        let (h, cos_d) = unit_halfway(l, v);
-        let visibility = self.masking.visibility(&self.distribution, l, v, h, cos_d, weight);
-        self.fresnel.fresnel(Incidence::halfway(l, v, cos_d)) * above_horizon(l, v, self.distribution.d(h) * visibility)
+        let facet = Facet::between(l, v);
+        let (specular, incidence) = facet.specular(&self.distribution, &self.masking, weight);
+        self.fresnel.fresnel(incidence) * above_horizon(l, v, specular)
     }
 }
 
@@ -102,17 +102,50 @@ pub type TorranceSparrow<F, R = f32> = Microfacet<Gaussian<R>, VCavity, F>;
 /// `Λ` take [`SmithTable`](crate::distribution::SmithTable).
 pub type AshikhminPremozeShirley<D, F> = Microfacet<D, SmithSeparable, F>;
 
-/// `h = (l + v)/|l + v|` and `cos θ_d = l·h = |l + v|/2 ≤ 1`, for unit vectors above the horizon; noise or NaN
-/// elsewhere.
+/// The facet that mirrors `l` to `v`, for unit vectors above the horizon; noise or NaN elsewhere.
 ///
-/// Each component has a relative error of at most `4u`, whatever cancels in the sum: the inputs are exact, and the sum
-/// rounds once. This is the half vector of the directions *as they are given*; see [`crate::halfway`] for the one that
-/// takes rounded lengths out.
-#[inline(always)]
-pub(crate) fn unit_halfway<R: Real>(l: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
-    // Between opposite directions on the horizon the sum is as small as the cosines; 2⁶² keeps its square normal.
-    let s = (l + v) * l.z.lift(R::SCALE);
-    let length = s.length_squared().sqrt();
-    // Of rounded unit vectors the sum may be longer than 2.
-    (s * length.recip(), length.times(0.5 / R::SCALE).min(length.lift(1.0)))
+/// Its normal has the direction of `l + v`, each component with a relative error of at most `4u`, whatever cancels in
+/// the sum: the inputs are exact, and the sum rounds once. This is the half vector of the directions *as they are given*;
+/// see [`crate::halfway`] for the one that takes rounded lengths out.
+#[derive(Clone, Copy)]
+pub(crate) struct Facet<R> {
+    l: Vec3<R>,
+    v: Vec3<R>,
+    /// `(l + v) 2⁶²`: between opposite directions on the horizon the sum is as small as the cosines, and so its square
+    /// is a normal number there too.
+    s: Vec3<R>,
+    /// `|s|²`.
+    length2: R,
+    /// `cos θ_d = l·h = |l + v|/2`, at most 1: of rounded unit vectors the sum may be longer than 2.
+    pub(crate) cos: R,
+}
+
+impl<R: Real> Facet<R> {
+    #[inline(always)]
+    pub(crate) fn between(l: Vec3<R>, v: Vec3<R>) -> Self {
+        let s = (l + v) * l.z.lift(R::SCALE);
+        let length2 = s.length_squared();
+        // Of opposite directions the root may be NaN, which this order drops: they are not above the horizon.
+        let cos = l.z.lift(1.0).min(length2.sqrt_of_normal().times(0.5 / R::SCALE));
+        Self { l, v, s, length2, cos }
+    }
+
+    /// `h`, of unit length.
+    #[inline(always)]
+    pub(crate) fn normal(&self) -> Vec3<R> {
+        self.s * self.length2.rsqrt()
+    }
+
+    /// `weight · D G/(4 (n·l)(n·v))`, and the angle of incidence on the facet.
+    #[inline(always)]
+    pub(crate) fn specular<D, G>(&self, distribution: &D, masking: &G, weight: R) -> (R, Incidence<R>)
+    where
+        D: Distribution<R>,
+        G: Masking<R, D>,
+    {
+        let Self { l, v, s, length2, cos } = *self;
+        let visibility = masking.quotient(distribution, l, v, self.normal(), cos, weight);
+        let (incidence, visibility) = Incidence::halfway_and(l, v, cos, visibility);
+        (distribution.d_along(s, length2) * visibility, incidence)
+    }
 }

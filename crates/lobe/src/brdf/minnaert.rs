@@ -1,7 +1,7 @@
 //! Minnaert: `f_r = ρ (k + 1)/(2π) ((n·l)(n·v))^(k−1)`.
 
-use crate::carry::carry;
 use super::{Brdf, above_horizon};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;

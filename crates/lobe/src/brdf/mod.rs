@@ -140,7 +140,7 @@ impl<R: Real, B: Brdf<R> + ?Sized> Brdf<R> for &B {
 /// `factor` where both directions are above the horizon, 0 elsewhere, NaN where a direction holds one.
 #[inline(always)]
 pub(crate) fn above_horizon<R: Real>(l: Vec3<R>, v: Vec3<R>, factor: R) -> R {
-    R::select(both_above(l, v), factor, factor.lift(0.0)) + zero_or_nan(l, v)
+    keep_nan(l, v, R::select(both_above(l, v), factor, factor.lift(0.0)))
 }
 
 /// Whether both directions are above the horizon.
@@ -157,4 +157,11 @@ pub(crate) fn both_above<R: Real>(l: Vec3<R>, v: Vec3<R>) -> R::Mask {
 pub(crate) fn zero_or_nan<R: Real>(l: Vec3<R>, v: Vec3<R>) -> R {
     let sum = l + v;
     (sum.x + sum.y + sum.z).times(0.0)
+}
+
+/// `value`, or NaN where a component of either direction is NaN or infinite: [`zero_or_nan`] added.
+#[inline(always)]
+pub(crate) fn keep_nan<R: Real>(l: Vec3<R>, v: Vec3<R>, value: R) -> R {
+    let sum = l + v;
+    (sum.x + sum.y + sum.z).mul_add(value.lift(0.0), value)
 }

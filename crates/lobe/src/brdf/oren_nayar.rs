@@ -1,7 +1,7 @@
 //! Oren-Nayar, qualitative: `f_r = ρ/π (A + B max(0, cos Δφ) sin α tan β)`, and in full.
 
-use crate::carry::carry;
 use super::{Brdf, above_horizon, plane};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;

@@ -1,7 +1,7 @@
 //! Phong: `f_r = ks (q + 2)/(2π) · max(0, r·v)^q`.
 
-use crate::carry::carry;
 use super::{Brdf, Shininess, power};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;

@@ -11,8 +11,8 @@
 //!
 //! `docs/numerics.md` derives the bounds.
 
-use crate::carry::carry;
 use super::{both_above, zero_or_nan};
+use crate::carry::carry;
 use crate::number::Real;
 use crate::vector::Vec3;
 

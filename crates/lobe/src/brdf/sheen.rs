@@ -1,9 +1,9 @@
 //! Sheen over a base: `f = f_sheen + f_base · min(1 − m E(n·v), 1 − m E(n·l))`.
 
-use crate::Carry;
-use crate::carry::carry;
 use super::{Brdf, Charlie, above_horizon};
 use crate::Alpha;
+use crate::Carry;
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::vector::Vec3;

@@ -1,7 +1,7 @@
 //! Shifted-Gamma: `f_r = ks F D G₁(l) G₁(v)/(π (n·l)(n·v))`, `D = K exp(−t)/(π t^p (n·h)⁴)`, `t = α + tan²θ_h/α`.
 
-use crate::carry::carry;
 use super::{Brdf, above_horizon};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::fresnel::{Incidence, fifth_power};
 use crate::number::Real;
@@ -99,7 +99,7 @@ impl<R: Real> ShiftedGamma<R> {
         // Divided before it is squared: the squares underflow between opposite directions at the horizon.
         let tan2 = (s.x * r).squared() + (s.y * r).squared();
         let cos_d = s.length_squared().sqrt().times(0.5).min(r.lift(1.0));
-        let away = Incidence::halfway(l, v, cos_d).one_minus_cos();
+        let away = Incidence::halfway(l, v, cos_d).one_minus_cos;
         let (theta_l, theta_v) = (angle(l), angle(v));
         let visibility = above_horizon(l, v, visibility.min(visibility.lift(END)));
         self.channels.map(|c| {

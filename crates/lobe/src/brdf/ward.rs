@@ -1,8 +1,8 @@
 //! Ward: `f_r = ks exp(−t)/(4π αx αy √((n·l)(n·v)))`, `t = ((h.x/αx)² + (h.y/αy)²)/h.z²`; and its two successors.
 
-use crate::carry::carry;
 use super::{Brdf, both_above, zero_or_nan};
 use crate::Alpha;
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::distribution::Widths;
 use crate::number::Real;

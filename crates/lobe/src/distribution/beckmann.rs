@@ -1,8 +1,8 @@
 //! Beckmann: `D = exp(−t)/(π αx αy h.z⁴)`, `t = (h.x²/αx² + h.y²/αy²)/h.z²`.
 
-use crate::carry::carry;
 use super::{Distribution, SmithLambda, Widths};
 use crate::Alpha;
+use crate::carry::carry;
 use crate::number::Real;
 use crate::vector::Vec3;
 
@@ -58,6 +58,17 @@ impl<R: Real> Distribution<R> for Beckmann<R> {
         let visible = t.lt(t.lift(100.0));
         let value = self.widths.peak * t.times(-core::f64::consts::LOG2_E).exp2_where(visible) / z2.squared();
         R::select(visible, value, t.lift(0.0))
+    }
+
+    /// By slopes, with one division: `exp(−t) (|s|²/s.z²)²/(π αx αy)`, `t = (s.x/(αx s.z))² + (s.y/(αy s.z))²`.
+    #[inline(always)]
+    fn d_along(&self, s: Vec3<R>, length2: R) -> R {
+        let r = s.z.recip();
+        let (x, y) = (s.x * r, s.y * r);
+        let t = self.widths.stretched(Vec3::new(x, y, r));
+        let visible = t.lt(t.lift(100.0));
+        let value = self.widths.peak * t.times(-core::f64::consts::LOG2_E).exp2_where(visible);
+        R::select(visible, value * (length2 * r * r).squared(), t.lift(0.0))
     }
 }
 

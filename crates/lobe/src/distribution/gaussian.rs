@@ -1,8 +1,8 @@
 //! The Gaussian of Torrance and Sparrow: `D = k exp(−(δ/α)²)`, `δ` the angle of the facet.
 
-use crate::carry::carry;
 use super::{Distribution, Widths, quadrature};
 use crate::Alpha;
+use crate::carry::carry;
 use crate::number::Real;
 use crate::vector::Vec3;
 

@@ -1,16 +1,17 @@
-//! GGX: `D = 1/(π αx αy (h.x²/αx² + h.y²/αy² + h.z²)²)`.
+//! GGX: `D = α²/(π (h.x² + h.y² + α² h.z²)²)`, and with two widths `1/(π αx αy (h.x²/αx² + h.y²/αy² + h.z²)²)`.
 
-use crate::carry::carry;
-use super::{Distribution, SmithLambda, Widths};
+use super::{Distribution, SmithLambda, Widths, sum_of_squares};
 use crate::Alpha;
+use crate::carry::carry;
 use crate::number::Real;
 use crate::vector::Vec3;
+use core::f64::consts::FRAC_1_PI;
 
-/// GGX, the distribution of an ellipsoid's normals: `D = 1/(π αx αy (h.x²/αx² + h.y²/αy² + h.z²)²)`.
+/// GGX, the distribution of an ellipsoid's normals: `D = α²/(π (h.x² + h.y² + α² h.z²)²)`.
 ///
 /// Trowbridge and Reitz, "Average Irregularity Representation of a Rough Surface for Ray Reflection", 1975; Walter,
 /// Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, equation 33;
-/// anisotropic: Burley, "Physically Based Shading at Disney", 2012, appendix B; `Λ`: Heitz 2014, equations 72 and 86.
+/// `Λ`: Heitz 2014, equation 72. With two widths it is [`GgxAnisotropic`].
 ///
 /// ```
 /// use lobe::{Alpha, Vec3};
@@ -21,22 +22,99 @@ use crate::vector::Vec3;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ggx<R = f32> {
-    widths: Widths<R>,
+    alpha: Alpha<R>,
+    /// `α²`, and `α²/π`.
+    alpha2: R,
+    peak: R,
 }
 
-carry!([] Ggx<f32> => Ggx<S> { widths });
+carry!([] Ggx<f32> => Ggx<S> { alpha, alpha2, peak });
 
 impl<R: Real> Ggx<R> {
-    /// The isotropic distribution.
+    /// The distribution of the width `α`.
     #[inline(always)]
     pub fn new(alpha: Alpha<R>) -> Self {
-        Self::anisotropic(alpha, alpha)
+        let alpha2 = alpha.0.squared();
+        Self { alpha, alpha2, peak: alpha2.times(FRAC_1_PI) }
     }
 
     /// The distribution with one width along the tangent and one along the bitangent.
     #[inline(always)]
-    pub fn anisotropic(x: Alpha<R>, y: Alpha<R>) -> Self {
-        Self { widths: Widths::new(x, y) }
+    pub fn anisotropic(x: Alpha<R>, y: Alpha<R>) -> GgxAnisotropic<R> {
+        GgxAnisotropic::new(x, y)
+    }
+
+    /// `α`.
+    #[inline(always)]
+    pub fn alpha(&self) -> Alpha<R> {
+        self.alpha
+    }
+
+    /// The same distribution in another number type.
+    #[inline(always)]
+    pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> Ggx<S> {
+        Ggx::new(self.alpha.map(f))
+    }
+}
+
+impl<R: Real> Distribution<R> for Ggx<R> {
+    #[inline(always)]
+    fn d(&self, h: Vec3<R>) -> R {
+        self.d_along(h, h.z.lift(1.0))
+    }
+
+    /// `α²/π · (|s|²/(s.x² + s.y² + (α s.z)²))²`.
+    #[inline(always)]
+    fn d_along(&self, s: Vec3<R>, length2: R) -> R {
+        let z = s.z * self.alpha.0;
+        self.peak * (length2 / z.mul_add(z, sum_of_squares(s.x, s.y))).squared()
+    }
+}
+
+impl<R: Real> SmithLambda<R> for Ggx<R> {
+    /// `Λ cos θ = (√(cos²θ + α² sin²θ) − cos θ)/2`, in the form without the difference.
+    #[inline(always)]
+    fn lambda_cos(&self, w: Vec3<R>) -> R {
+        let shrunk = self.alpha2 * sum_of_squares(w.x, w.y);
+        shrunk.times(0.5) / (w.z.mul_add(w.z, shrunk).sqrt() + w.z)
+    }
+
+    /// `(cos θ + √(cos²θ + α² sin²θ))/2`.
+    #[inline(always)]
+    fn facing(&self, w: Vec3<R>) -> R {
+        (w.z + self.facing_either_way(w)).times(0.5)
+    }
+
+    /// `√(cos²θ + α² sin²θ)`.
+    #[inline(always)]
+    fn facing_either_way(&self, w: Vec3<R>) -> R {
+        w.z.mul_add(w.z, self.alpha2 * sum_of_squares(w.x, w.y)).sqrt_of_normal()
+    }
+}
+
+/// GGX with two widths: `D = 1/(π αx αy (h.x²/αx² + h.y²/αy² + h.z²)²)`.
+///
+/// Burley, "Physically Based Shading at Disney", 2012, appendix B; `Λ`: Heitz 2014, equation 86.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GgxAnisotropic<R = f32> {
+    widths: Widths<R>,
+    /// The smaller width `m`, and `m/αx`, `m/αy`.
+    smaller: R,
+    share: (R, R),
+    /// `m⁴/(π αx αy)`.
+    peak: R,
+}
+
+carry!([] GgxAnisotropic<f32> => GgxAnisotropic<S> { widths, smaller, share, peak });
+
+impl<R: Real> GgxAnisotropic<R> {
+    /// The distribution with one width along the tangent and one along the bitangent.
+    #[inline(always)]
+    pub fn new(x: Alpha<R>, y: Alpha<R>) -> Self {
+        let widths = Widths::new(x, y);
+        let smaller = x.0.min(y.0);
+        let share = (smaller * widths.inverse.0, smaller * widths.inverse.1);
+        Self { widths, smaller, share, peak: share.0 * share.1 * smaller.squared().times(FRAC_1_PI) }
     }
 
     /// `αx` and `αy`.
@@ -47,23 +125,43 @@ impl<R: Real> Ggx<R> {
 
     /// The same distribution in another number type.
     #[inline(always)]
-    pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> Ggx<S> {
-        Ggx::anisotropic(self.widths.x.map(&f), self.widths.y.map(&f))
+    pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> GgxAnisotropic<S> {
+        GgxAnisotropic::new(self.widths.x.map(&f), self.widths.y.map(&f))
     }
 }
 
-impl<R: Real> Distribution<R> for Ggx<R> {
+impl<R: Real> Distribution<R> for GgxAnisotropic<R> {
     #[inline(always)]
     fn d(&self, h: Vec3<R>) -> R {
-        self.widths.peak / (self.widths.stretched(h) + h.z.squared()).squared()
+        self.d_along(h, h.z.lift(1.0))
+    }
+
+    /// `m⁴/(π αx αy) · (|s|²/((s.x m/αx)² + (s.y m/αy)² + (s.z m)²))²`, in which no square exceeds that of `s`.
+    #[inline(always)]
+    fn d_along(&self, s: Vec3<R>, length2: R) -> R {
+        let stretched = sum_of_squares(s.x * self.share.0, s.y * self.share.1);
+        let z = s.z * self.smaller;
+        self.peak * (length2 / z.mul_add(z, stretched)).squared()
     }
 }
 
-impl<R: Real> SmithLambda<R> for Ggx<R> {
+impl<R: Real> SmithLambda<R> for GgxAnisotropic<R> {
     /// `Λ cos θ = (√(cos²θ + (αx w.x)² + (αy w.y)²) − cos θ)/2`, in the form without the difference.
     #[inline(always)]
     fn lambda_cos(&self, w: Vec3<R>) -> R {
         let shrunk = self.widths.shrunk(w);
-        shrunk.times(0.5) / ((shrunk + w.z.squared()).sqrt() + w.z)
+        shrunk.times(0.5) / (w.z.mul_add(w.z, shrunk).sqrt() + w.z)
+    }
+
+    /// `(cos θ + √(cos²θ + (αx w.x)² + (αy w.y)²))/2`.
+    #[inline(always)]
+    fn facing(&self, w: Vec3<R>) -> R {
+        (w.z + self.facing_either_way(w)).times(0.5)
+    }
+
+    /// `√(cos²θ + (αx w.x)² + (αy w.y)²)`.
+    #[inline(always)]
+    fn facing_either_way(&self, w: Vec3<R>) -> R {
+        w.z.mul_add(w.z, self.widths.shrunk(w)).sqrt_of_normal()
     }
 }

@@ -1,8 +1,8 @@
 //! GTR: `D = k (h.x²/αx² + h.y²/αy² + h.z²)^−γ`.
 
-use crate::carry::carry;
 use super::{Distribution, Widths, quadrature};
 use crate::Alpha;
+use crate::carry::carry;
 use crate::number::Real;
 use crate::vector::Vec3;
 

@@ -18,7 +18,7 @@ mod tabulated;
 
 pub use beckmann::Beckmann;
 pub use gaussian::Gaussian;
-pub use ggx::Ggx;
+pub use ggx::{Ggx, GgxAnisotropic};
 pub use gtr::Gtr;
 pub use phong_power::PhongPower;
 pub use smith_table::SmithTable;
@@ -33,6 +33,14 @@ use crate::vector::Vec3;
 pub trait Distribution<R: Real> {
     /// `D(h)` in sr⁻¹ for a unit vector `h` with `h.z ≥ 0`.
     fn d(&self, h: Vec3<R>) -> R;
+
+    /// `D` in the direction of `s`, a vector of any length from `2⁻⁶³` to `2⁶³` in `f32` whose square is `length2`.
+    ///
+    /// A distribution that needs no unit vector overrides this, and saves a root and a division.
+    #[inline(always)]
+    fn d_along(&self, s: Vec3<R>, length2: R) -> R {
+        self.d(s * length2.rsqrt())
+    }
 }
 
 /// A distribution whose Smith function `Λ` is known.
@@ -43,6 +51,18 @@ pub trait Distribution<R: Real> {
 pub trait SmithLambda<R: Real>: Distribution<R> {
     /// `Λ(w) cos θ_w`, for a unit vector `w` with `w.z ≥ 0`: finite to the horizon, where `Λ` itself is not.
     fn lambda_cos(&self, w: Vec3<R>) -> R;
+
+    /// `(1 + Λ(w)) cos θ_w`: the area of the facets that face `w`, projected.
+    #[inline(always)]
+    fn facing(&self, w: Vec3<R>) -> R {
+        w.z + self.lambda_cos(w)
+    }
+
+    /// `(1 + 2 Λ(w)) cos θ_w`: the area of all facets, those that face away too.
+    #[inline(always)]
+    fn facing_either_way(&self, w: Vec3<R>) -> R {
+        w.z + self.lambda_cos(w).times(2.0)
+    }
 
     /// `G₁(w) = 1/(1 + Λ(w))`, at most 1 to the last bit.
     #[inline(always)]
@@ -57,7 +77,7 @@ pub(crate) struct Widths<R> {
     pub(crate) x: crate::Alpha<R>,
     pub(crate) y: crate::Alpha<R>,
     /// `1/αx`, `1/αy`.
-    inverse: (R, R),
+    pub(crate) inverse: (R, R),
     /// `1/(π αx αy)`: the value of GGX and Beckmann at the peak.
     pub(crate) peak: R,
 }
@@ -75,12 +95,18 @@ impl<R: Real> Widths<R> {
     /// `(w.x/αx)² + (w.y/αy)²`.
     #[inline(always)]
     pub(crate) fn stretched(&self, w: Vec3<R>) -> R {
-        (w.x * self.inverse.0).squared() + (w.y * self.inverse.1).squared()
+        sum_of_squares(w.x * self.inverse.0, w.y * self.inverse.1)
     }
 
     /// `(αx w.x)² + (αy w.y)²`.
     #[inline(always)]
     pub(crate) fn shrunk(&self, w: Vec3<R>) -> R {
-        (w.x * self.x.0).squared() + (w.y * self.y.0).squared()
+        sum_of_squares(w.x * self.x.0, w.y * self.y.0)
     }
+}
+
+/// `x² + y²`.
+#[inline(always)]
+pub(crate) fn sum_of_squares<R: Real>(x: R, y: R) -> R {
+    y.mul_add(y, x.squared())
 }

@@ -1,9 +1,9 @@
 //! Blinn: `D = √((qx + 2)(qy + 2))/(2π) · h.z^((qx h.x² + qy h.y²)/(h.x² + h.y²))`.
 
-use crate::carry::carry;
 use super::{Distribution, Widths};
 use crate::Alpha;
 use crate::Shininess;
+use crate::carry::carry;
 use crate::number::Real;
 use crate::vector::Vec3;
 

@@ -1,9 +1,9 @@
 //! Smith's `Λ` of any isotropic distribution, integrated once and interpolated.
 
-use crate::Carry;
-use crate::carry::carry;
 use super::{Distribution, SmithLambda, Widths};
 use crate::Alpha;
+use crate::Carry;
+use crate::carry::carry;
 use crate::number::Real;
 use crate::vector::Vec3;
 

@@ -1,8 +1,8 @@
 //! Student-t: `D = (1 + t/(γ − 1))^−γ/(π αx αy h.z⁴)`, `t = (h.x²/αx² + h.y²/αy²)/h.z²`.
 
-use crate::carry::carry;
 use super::{Distribution, Widths};
 use crate::Alpha;
+use crate::carry::carry;
 use crate::number::Real;
 use crate::vector::Vec3;
 

@@ -1,7 +1,7 @@
 //! A table: `D = Σ pᵢ hat(θ/step − i)/∫`, any distribution of the angle.
 
-use crate::carry::carry;
 use super::Distribution;
+use crate::carry::carry;
 use crate::number::Real;
 use crate::vector::Vec3;
 use core::f64::consts::FRAC_PI_2;

@@ -1,8 +1,8 @@
 //! Fresnel, conductor: `Rs = |cos θ − w|²/|cos θ + w|²`, `w² = (η + ik)² − sin² θ`, and its `Rp`.
 
-use crate::carry::carry;
 use super::dielectric::root_free;
 use super::{Fresnel, Incidence, at_most_one, felt, zip};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 

@@ -1,7 +1,7 @@
 //! Cook's form: Fresnel's dielectric reflectance, for `η = (1 + √F0)/(1 − √F0)` of each channel.
 
-use crate::carry::carry;
 use super::{Fresnel, Incidence, dielectric};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::parameter::F0;

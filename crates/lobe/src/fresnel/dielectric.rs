@@ -1,8 +1,8 @@
 //! Fresnel, dielectric: `F = (rs² + rp²)/2`, `rs = (cos θ − g)/(cos θ + g)`, `rp = (η² cos θ − g)/(η² cos θ + g)`,
 //! `g² = η² − sin² θ`.
 
-use crate::carry::carry;
 use super::{Fresnel, Incidence, at_most_one, felt};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 use crate::parameter::Ior;

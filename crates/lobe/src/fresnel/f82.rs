@@ -1,7 +1,7 @@
 //! F82-tint: `F = S(μ) − μ (1 − μ)⁶ S(1/7) (1 − tint)/((1/7)(6/7)⁶)`, `S` Schlick's form, `μ = cos θ`.
 
-use crate::carry::carry;
 use super::{Fresnel, Incidence, at_least_zero, at_most_one, fifth_power, zip};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 
@@ -45,7 +45,7 @@ impl<R: Real> F82Tint<R> {
 impl<R: Real> Fresnel<R> for F82Tint<R> {
     #[inline(always)]
     fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R> {
-        let x = incidence.one_minus_cos();
+        let x = incidence.one_minus_cos;
         let x5 = fifth_power(x);
         let bump = incidence.cos * (x5 * x);
         zip(self.f0, self.b, |f0, b| {

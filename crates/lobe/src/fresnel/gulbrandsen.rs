@@ -1,7 +1,7 @@
 //! Gulbrandsen: Fresnel's conductor, for `η` and `k` from a reflectivity `r` and an edge tint `g`.
 
-use crate::carry::carry;
 use super::{Conductor, Fresnel, Incidence, conductor};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 

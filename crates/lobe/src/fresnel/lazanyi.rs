@@ -1,7 +1,7 @@
 //! Lazányi: `F = f0 + (1 − f0)(1 − cos θ)⁵ − a cos θ (1 − cos θ)^α`.
 
-use crate::carry::carry;
 use super::{Fresnel, Incidence, at_least_zero, at_most_one, fifth_power, zip};
+use crate::carry::carry;
 use crate::color::Rgb;
 use crate::number::Real;
 
@@ -38,7 +38,7 @@ impl<R: Real> Lazanyi<R> {
 impl<R: Real> Fresnel<R> for Lazanyi<R> {
     #[inline(always)]
     fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R> {
-        let x = incidence.one_minus_cos();
+        let x = incidence.one_minus_cos;
         let x5 = fifth_power(x);
         let bump = incidence.cos * x.pow(self.alpha);
         zip(self.f0, self.a, |f0, a| {

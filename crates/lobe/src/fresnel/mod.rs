@@ -6,7 +6,7 @@
 //! | [`Conductor`] | `η`, `k` per channel | Fresnel's equations, exact |
 //! | [`CookFresnel`] | [`F0`](crate::F0) per channel | exact, for the `η` that belongs to `F0` |
 //! | [`Gulbrandsen`] | `r`, `g` per channel | exact, for `η` and `k` by reflectivity and edge tint |
-//! | [`Schlick`] | `f0`, `f90` | a polynomial |
+//! | [`Schlick`], [`SchlickF90`] | `f0`, `f90` | a polynomial |
 //! | [`F82Tint`] | `f0`, tint | Schlick's, tinted near 82° |
 //! | [`Lazanyi`] | `f0`, `a`, `α` | Schlick's, less a term that metals need |
 //!
@@ -27,10 +27,11 @@ pub use dielectric::Dielectric;
 pub use f82::F82Tint;
 pub use gulbrandsen::Gulbrandsen;
 pub use lazanyi::Lazanyi;
-pub use schlick::Schlick;
+pub(crate) use schlick::one_minus_fifth_power;
+pub use schlick::{Schlick, SchlickF90};
 
 use crate::color::Rgb;
-use crate::number::Real;
+use crate::number::{Quotient, Real};
 use crate::vector::Vec3;
 
 /// An angle of incidence `θ` in `[0, π/2]`, by two numbers: near the normal `cos θ` says nothing about `1 − cos θ`, and
@@ -41,6 +42,8 @@ pub struct Incidence<R = f32> {
     pub cos: R,
     /// `sin² θ`.
     pub sin2: R,
+    /// `1 − cos θ`, to the last digits at every angle.
+    pub one_minus_cos: R,
 }
 
 impl<R: Real> Incidence<R> {
@@ -48,28 +51,38 @@ impl<R: Real> Incidence<R> {
     #[inline(always)]
     pub fn from_cos(cos: R) -> Self {
         let one = cos.lift(1.0);
-        Self { cos, sin2: (one - cos) * (one + cos) }
+        Self { cos, sin2: (one - cos) * (one + cos), one_minus_cos: one - cos }
+    }
+
+    /// The angle of a cosine and the square of its sine, of which each has digits that the other lacks.
+    #[inline(always)]
+    pub fn new(cos: R, sin2: R) -> Self {
+        Self { cos, sin2, one_minus_cos: cos.one_minus(|| sin2 / cos.plus(1.0)) }
     }
 
     /// The angle between `l` and the half vector of `l` and `v`, where `cos θ = |l + v|/2` is known:
     /// `sin² θ = |l − v|²/4`.
     #[inline(always)]
     pub(crate) fn halfway(l: Vec3<R>, v: Vec3<R>, cos: R) -> Self {
+        Self::halfway_and(l, v, cos, Quotient::whole(cos)).0
+    }
+
+    /// The same, and the value of a quotient, by the division that `1 − cos θ = sin² θ/(1 + cos θ)` takes anyway.
+    #[inline(always)]
+    pub(crate) fn halfway_and(l: Vec3<R>, v: Vec3<R>, cos: R, quotient: Quotient<R>) -> (Self, R) {
+        let one = cos.lift(1.0);
         // Of rounded unit vectors the difference may be longer than 2, and Schlick's form would exceed 1.
         let sin2 = (l - v).length_squared().times(0.25);
-        Self { cos, sin2: sin2.min(cos.lift(1.0)) }
+        let (value, exact) = quotient.with(Quotient::new(sin2, cos + one));
+        // Below the horizon the denominator that is shared may be 0, and the quotient NaN. In this order the minimum drops
+        // it: what is selected there is 0, and a NaN among the directions is added to that.
+        (Self { cos, sin2: sin2.min(one), one_minus_cos: cos.one_minus(|| one.min(exact)) }, value)
     }
 
     /// The angle between a unit vector of the local frame and the normal.
     #[inline(always)]
     pub fn of(w: Vec3<R>) -> Self {
-        Self { cos: w.z, sin2: w.x.squared() + w.y.squared() }
-    }
-
-    /// `1 − cos θ = sin² θ/(1 + cos θ)`, to the last digits at every angle.
-    #[inline(always)]
-    pub fn one_minus_cos(self) -> R {
-        self.sin2 / self.cos.plus(1.0)
+        Self::new(w.z, w.x.squared() + w.y.squared())
     }
 }
 

@@ -1,9 +1,9 @@
 //! Hammon: `V = 1/(2 ((1 − α) 2 (n·l)(n·v) + α (n·l + n·v)))`.
 
-use crate::carry::carry;
 use super::Masking;
 use crate::Alpha;
-use crate::number::Real;
+use crate::carry::carry;
+use crate::number::{Quotient, Real};
 use crate::vector::Vec3;
 
 /// Hammon's linear form of Smith's correlated masking for GGX:
@@ -38,10 +38,10 @@ impl<R: Real> Hammon<R> {
 
 impl<R: Real, D> Masking<R, D> for Hammon<R> {
     #[inline(always)]
-    fn visibility(&self, _distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> R {
+    fn quotient(&self, _distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> Quotient<R> {
         let alpha = self.alpha.0;
         let (n_dot_l, n_dot_v) = (l.z.times(R::SCALE), v.z.times(R::SCALE));
         let smooth = (n_dot_l * v.z).times(2.0) * (alpha.lift(1.0) - alpha);
-        weight.times(0.5 * R::SCALE) / (smooth + alpha * (n_dot_l + n_dot_v))
+        Quotient::new(weight.times(0.5 * R::SCALE), alpha.mul_add(n_dot_l + n_dot_v, smooth))
     }
 }

@@ -1,7 +1,7 @@
 //! Implicit: `G = (n·l)(n·v)`.
 
 use super::Masking;
-use crate::number::Real;
+use crate::number::{Quotient, Real};
 use crate::vector::Vec3;
 
 /// The masking that cancels the denominator: `G = (n·l)(n·v)`, so that `V = 1/4`.
@@ -13,7 +13,7 @@ pub struct Implicit;
 
 impl<R: Real, D> Masking<R, D> for Implicit {
     #[inline(always)]
-    fn visibility(&self, _distribution: &D, _l: Vec3<R>, _v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> R {
-        weight.times(0.25)
+    fn quotient(&self, _distribution: &D, _l: Vec3<R>, _v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> Quotient<R> {
+        Quotient::whole(weight.times(0.25))
     }
 }

@@ -1,7 +1,7 @@
 //! Kelemen: `V = 1/(4 (v·h)²)`.
 
 use super::{MAX_VISIBILITY, Masking};
-use crate::number::Real;
+use crate::number::{Quotient, Real};
 use crate::vector::Vec3;
 
 /// The masking of Kelemen and Szirmay-Kalos: `G = (n·l)(n·v)/(v·h)²`, so that `V = 1/(4 (v·h)²)`.
@@ -16,8 +16,8 @@ pub struct Kelemen;
 
 impl<R: Real, D> Masking<R, D> for Kelemen {
     #[inline(always)]
-    fn visibility(&self, _distribution: &D, _l: Vec3<R>, _v: Vec3<R>, _h: Vec3<R>, cos_d: R, weight: R) -> R {
+    fn quotient(&self, _distribution: &D, _l: Vec3<R>, _v: Vec3<R>, _h: Vec3<R>, cos_d: R, weight: R) -> Quotient<R> {
         // One division after the other: the square of a cosine of 1e-20 is below the range of f32.
-        weight * (cos_d.lift(0.25) / cos_d / cos_d).min(cos_d.lift(MAX_VISIBILITY))
+        Quotient::whole(weight * (cos_d.lift(0.25) / cos_d / cos_d).min(cos_d.lift(MAX_VISIBILITY)))
     }
 }

@@ -1,10 +1,10 @@
 //! Walter's rational form: `G₁ = (3.535 a + 2.181 a²)/(1 + 2.276 a + 2.577 a²)`, 1 from `a = 1.6` on.
 
-use crate::carry::carry;
 use super::Masking;
 use crate::Alpha;
+use crate::carry::carry;
 use crate::distribution::Widths;
-use crate::number::Real;
+use crate::number::{Quotient, Real};
 use crate::vector::Vec3;
 
 /// The rational form of Smith's masking for Beckmann, light and viewer apart:
@@ -55,7 +55,7 @@ impl<R: Real> RationalBeckmann<R> {
 
 impl<R: Real, D> Masking<R, D> for RationalBeckmann<R> {
     #[inline(always)]
-    fn visibility(&self, _distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> R {
-        weight.times(0.25) * (self.g1_over_cos(l) * self.g1_over_cos(v))
+    fn quotient(&self, _distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> Quotient<R> {
+        Quotient::whole(weight.times(0.25) * (self.g1_over_cos(l) * self.g1_over_cos(v)))
     }
 }

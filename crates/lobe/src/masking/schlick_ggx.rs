@@ -1,9 +1,9 @@
 //! Schlick: `G₁ = cos θ/(cos θ (1 − k) + k)`.
 
-use crate::carry::carry;
 use super::Masking;
 use crate::Alpha;
-use crate::number::Real;
+use crate::carry::carry;
+use crate::number::{Quotient, Real};
 use crate::vector::Vec3;
 
 /// Schlick's masking, light and viewer apart: `G₁ = cos θ/(cos θ (1 − k) + k)`, with one of three published `k`.
@@ -61,8 +61,8 @@ impl<R: Real> SchlickGgx<R> {
 
 impl<R: Real, D> Masking<R, D> for SchlickGgx<R> {
     #[inline(always)]
-    fn visibility(&self, _distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> R {
-        let factor = |cos: R| cos * (cos.lift(1.0) - self.k) + self.k;
-        weight.times(0.25) / (factor(l.z) * factor(v.z))
+    fn quotient(&self, _distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> Quotient<R> {
+        let factor = |cos: R| cos.mul_add(cos.lift(1.0) - self.k, self.k);
+        Quotient::new(weight.times(0.25), factor(l.z) * factor(v.z))
     }
 }

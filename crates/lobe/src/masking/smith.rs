@@ -2,7 +2,7 @@
 
 use super::Masking;
 use crate::distribution::SmithLambda;
-use crate::number::Real;
+use crate::number::{Quotient, Real};
 use crate::vector::Vec3;
 
 /// Smith's masking, light and viewer correlated by height: `G = 1/(1 + Λ(l) + Λ(v))`.
@@ -13,12 +13,11 @@ pub struct SmithCorrelated;
 
 impl<R: Real, D: SmithLambda<R>> Masking<R, D> for SmithCorrelated {
     #[inline(always)]
-    fn visibility(&self, distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> R {
-        let (lambda_l, lambda_v) = (distribution.lambda_cos(l), distribution.lambda_cos(v));
+    fn quotient(&self, distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> Quotient<R> {
+        let (area_l, area_v) = (distribution.facing_either_way(l), distribution.facing_either_way(v));
         let (n_dot_l, n_dot_v) = (l.z.times(R::SCALE), v.z.times(R::SCALE));
-        // The product of the cosines in a symmetric form.
-        let denominator = (n_dot_l * lambda_v + n_dot_v * lambda_l) + n_dot_l * v.z;
-        weight.times(0.25 * R::SCALE) / denominator
+        // 1 + Λ(l) + Λ(v) is half of the sum of (1 + 2 Λ)(l) and (1 + 2 Λ)(v): positive terms only, and symmetric.
+        Quotient::new(weight.times(0.5 * R::SCALE), n_dot_l.mul_add(area_v, n_dot_v * area_l))
     }
 }
 
@@ -30,7 +29,7 @@ pub struct SmithSeparable;
 
 impl<R: Real, D: SmithLambda<R>> Masking<R, D> for SmithSeparable {
     #[inline(always)]
-    fn visibility(&self, distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> R {
-        weight.times(0.25) / ((l.z + distribution.lambda_cos(l)) * (v.z + distribution.lambda_cos(v)))
+    fn quotient(&self, distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> Quotient<R> {
+        Quotient::new(weight.times(0.25), distribution.facing(l) * distribution.facing(v))
     }
 }

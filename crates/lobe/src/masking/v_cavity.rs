@@ -1,7 +1,7 @@
 //! V-cavities: `G = min(1, 2 (n·h)(n·v)/(l·h), 2 (n·h)(n·l)/(l·h))`.
 
 use super::{MAX_VISIBILITY, Masking};
-use crate::number::Real;
+use crate::number::{Quotient, Real};
 use crate::vector::Vec3;
 
 /// V-cavities, long grooves with equal and opposite sides: `G = min(1, 2 (n·h)(n·v)/(l·h), 2 (n·h)(n·l)/(l·h))`.
@@ -17,11 +17,11 @@ pub struct VCavity;
 
 impl<R: Real, D> Masking<R, D> for VCavity {
     #[inline(always)]
-    fn visibility(&self, _distribution: &D, l: Vec3<R>, v: Vec3<R>, h: Vec3<R>, cos_d: R, weight: R) -> R {
+    fn quotient(&self, _distribution: &D, l: Vec3<R>, v: Vec3<R>, h: Vec3<R>, cos_d: R, weight: R) -> Quotient<R> {
         let (n_dot_l, n_dot_v) = (l.z.times(R::SCALE), v.z.times(R::SCALE));
         // G/(4 (n·l)(n·v)) of each term; the one with the larger cosine below is the smaller of the two.
         let open = weight.lift(0.25 * R::SCALE * R::SCALE) / (n_dot_l * n_dot_v);
         let masked = h.z.times(0.5 * R::SCALE) / (cos_d * n_dot_l.max(n_dot_v));
-        weight * open.min(masked).min(weight.lift(MAX_VISIBILITY))
+        Quotient::whole(weight * open.min(masked).min(weight.lift(MAX_VISIBILITY)))
     }
 }

@@ -120,6 +120,8 @@ fn log2_of_positive<F: Estimate, P: Rough>(x: F) -> F {
 impl<F: Estimate, P: Rough> Real for Approximate<F, P> {
     type Mask = F::Mask;
     const ROOT_SCALE: f64 = F::ROOT_SCALE;
+    /// Half of that of `f32`: the squares of scaled sums reach 2¹²⁶ there, whose reciprocal some machines estimate as 0.
+    const SCALE: f64 = F::SCALE * 0.5;
     const MIN_POSITIVE: f64 = F::MIN_POSITIVE;
 
     #[inline(always)]
@@ -169,12 +171,20 @@ impl<F: Estimate, P: Rough> Real for Approximate<F, P> {
         Self::new(self.value.lift(1.0) - self.value)
     }
     #[inline(always)]
+    fn quotients((a, b): (Self, Self), (c, d): (Self, Self)) -> (Self, Self) {
+        (a / b, c / d)
+    }
+    #[inline(always)]
     fn recip(self) -> Self {
         Self::new(self.value.recip_estimate())
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
         Self::new(self.value.sqrt_estimate())
+    }
+    #[inline(always)]
+    fn sqrt_of_normal(self) -> Self {
+        Self::new(self.value.sqrt_of_normal_estimate())
     }
     #[inline(always)]
     fn rsqrt(self) -> Self {

@@ -15,6 +15,7 @@ pub mod elementary;
 #[cfg(feature = "half")]
 mod half;
 mod precision;
+mod quotient;
 mod single;
 #[cfg(feature = "simd")]
 mod wide;
@@ -24,6 +25,7 @@ pub use elementary::Binary32;
 #[cfg(feature = "half")]
 pub use half::Half;
 pub use precision::{Estimate, Precise, Precision, Rough};
+pub use quotient::Quotient;
 #[cfg(feature = "simd")]
 pub use wide::{Lanes, Wide, WideMask};
 
@@ -89,6 +91,11 @@ pub trait Real:
     fn abs(self) -> Self;
     /// `√self`, correctly rounded; NaN below zero.
     fn sqrt(self) -> Self;
+    /// `√self` of a positive normal number: what [`Approximate`] numbers know without a look at 0.
+    #[inline(always)]
+    fn sqrt_of_normal(self) -> Self {
+        self.sqrt()
+    }
     /// The magnitude of `self` with the sign bit of `sign`.
     fn copysign(self, sign: Self) -> Self;
 
@@ -195,6 +202,14 @@ pub trait Real:
     #[inline(always)]
     fn recip(self) -> Self {
         self.lift(1.0) / self
+    }
+    /// `(a/b, c/d)` by one division: `1/(b d)` times `a d` and `c b`. In `f32` each within 4 roundings.
+    ///
+    /// `b d` must stay within the range of the type. Numbers whose division is an estimate take two.
+    #[inline(always)]
+    fn quotients((a, b): (Self, Self), (c, d): (Self, Self)) -> (Self, Self) {
+        let inverse = (b * d).recip();
+        (a * d * inverse, c * b * inverse)
     }
     /// `1/√self`.
     #[inline(always)]

@@ -76,6 +76,11 @@ pub trait Estimate: Binary32 {
     fn sqrt_estimate(self) -> Self {
         self.sqrt()
     }
+    /// `√self` of a positive normal number.
+    #[inline(always)]
+    fn sqrt_of_normal_estimate(self) -> Self {
+        self.sqrt()
+    }
     /// A number near `1/√self`, within 4 %, for positive normal numbers: half of the bits of `self` taken from
     /// `start`.
     fn rsqrt_guess(self, start: u32) -> Self;

@@ -11,23 +11,9 @@ use fearless_simd::{Bytes as _, ExtractToken as _, Select as _, Simd, SimdBase, 
 /// Every lane gets the operations of the scalar `f32` in the same order, none of them fused and none of them an
 /// estimate: the same bits, at every level.
 ///
-/// The vector instructions of a level may only be used inside a function that is compiled for it. Call from the
-/// [`dispatch!`](fearless_simd::dispatch) of `fearless_simd`, and mark what is between with `#[inline(always)]`: all of
-/// this crate is.
-///
-/// ```
-/// use fearless_simd::{Level, SimdBase as _, dispatch};
-/// use lobe::{Alpha, Brdf, Rgb, Vec3, Ward, number::Wide};
-///
-/// let metal = Ward::new(Rgb::splat(0.9_f32), Alpha(0.2), Alpha(0.2));
-/// let (l, v) = (Vec3::new(0.6_f32, 0.0, 0.8), Vec3::new(0.0, 0.6, 0.8));
-/// let green = dispatch!(Level::new(), simd => {
-///     let wide = |x: f32| Wide::splat(simd, x);
-///     let f = metal.map(wide).eval(l.map(wide), v.map(wide));
-///     f.g.0.as_slice()[0]
-/// });
-/// assert_eq!(green.to_bits(), metal.eval(l, v).g.to_bits());
-/// ```
+/// Users meet it by way of [`batch`](crate::batch), which knows how to read and write it. The vector instructions of a
+/// level may only be used inside a function that is compiled for it: [`Simd::vectorize`] makes one, and what it calls is
+/// to be marked `#[inline(always)]`, as all of this crate is.
 #[derive(Clone, Copy, Debug)]
 pub struct Wide<S: Simd>(pub S::f32s);
 
@@ -99,7 +85,7 @@ impl<S: Simd> Not for WideMask<S> {
 
 impl<S: Simd> Mask for WideMask<S> {}
 
-impl<S: Simd> Real for Wide<S> {
+impl<S: Lanes> Real for Wide<S> {
     type Mask = WideMask<S>;
 
     #[inline(always)]
@@ -121,6 +107,14 @@ impl<S: Simd> Real for Wide<S> {
     #[inline(always)]
     fn select(mask: WideMask<S>, a: Self, b: Self) -> Self {
         Self(mask.0.select(a.0, b.0))
+    }
+    #[inline(always)]
+    fn max(self, bound: Self) -> Self {
+        S::max(self, bound)
+    }
+    #[inline(always)]
+    fn min(self, bound: Self) -> Self {
+        S::min(self, bound)
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -172,7 +166,7 @@ impl<S: Simd> Real for Wide<S> {
     }
 }
 
-impl<S: Simd> Binary32 for Wide<S> {
+impl<S: Lanes> Binary32 for Wide<S> {
     #[inline(always)]
     fn add_exponent(self, shifter: Self) -> Self {
         let (bits, shift): (S::u32s, S::u32s) = (self.0.bitcast(), shifter.0.bitcast());
@@ -196,6 +190,16 @@ impl<S: Simd> Binary32 for Wide<S> {
 ///
 /// For every level of `fearless_simd`; which instructions there are is known for each of them only.
 pub trait Lanes: Simd {
+    /// As [`Real::max`]: `bound` where `bound > x`, else `x`.
+    #[inline(always)]
+    fn max(x: Wide<Self>, bound: Wide<Self>) -> Wide<Self> {
+        Real::select(x.lt(bound), bound, x)
+    }
+    /// As [`Real::min`]: `bound` where `bound < x`, else `x`.
+    #[inline(always)]
+    fn min(x: Wide<Self>, bound: Wide<Self>) -> Wide<Self> {
+        Real::select(bound.lt(x), bound, x)
+    }
     /// As [`Estimate::fused`].
     #[inline(always)]
     fn fused(a: Wide<Self>, b: Wide<Self>, c: Wide<Self>) -> Wide<Self> {
@@ -214,6 +218,11 @@ pub trait Lanes: Simd {
     /// As [`Estimate::sqrt_estimate`].
     #[inline(always)]
     fn sqrt(x: Wide<Self>) -> Wide<Self> {
+        Real::sqrt(x)
+    }
+    /// As [`Estimate::sqrt_of_normal_estimate`].
+    #[inline(always)]
+    fn sqrt_of_normal(x: Wide<Self>) -> Wide<Self> {
         Real::sqrt(x)
     }
     /// As [`Estimate::rsqrt_estimate`].
@@ -239,6 +248,10 @@ impl<S: Lanes> Estimate for Wide<S> {
     #[inline(always)]
     fn sqrt_estimate(self) -> Self {
         S::sqrt(self)
+    }
+    #[inline(always)]
+    fn sqrt_of_normal_estimate(self) -> Self {
+        S::sqrt_of_normal(self)
     }
     #[inline(always)]
     fn rsqrt_guess(self, start: u32) -> Self {
@@ -307,8 +320,31 @@ use fearless_simd::SimdInto as _;
 /// The estimates of x86, as they come: 2⁻¹⁴ with AVX-512, 1.5·2⁻¹² before.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 macro_rules! x86_lanes {
-    ($($level:ident, $register:ident, $rcp:ident, $rsqrt:ident;)+) => {$(
+    ($($level:ident, $register:ident, $rcp:ident, $rsqrt:ident, $max:ident, $min:ident;)+) => {$(
         impl Lanes for fearless_simd::$level {
+            // The instructions return their second operand unless the first is beyond it, NaN or not.
+            #[inline(always)]
+            fn max(x: Wide<Self>, bound: Wide<Self>) -> Wide<Self> {
+                fearless_simd::kernel!(
+                    #[inline(always)]
+                    fn larger(simd: $level, bound: $register, x: $register) -> $register {
+                        $max(bound, x)
+                    }
+                );
+                let simd = x.0.token();
+                Wide(larger(simd, bound.0.into(), x.0.into()).simd_into(simd))
+            }
+            #[inline(always)]
+            fn min(x: Wide<Self>, bound: Wide<Self>) -> Wide<Self> {
+                fearless_simd::kernel!(
+                    #[inline(always)]
+                    fn smaller(simd: $level, bound: $register, x: $register) -> $register {
+                        $min(bound, x)
+                    }
+                );
+                let simd = x.0.token();
+                Wide(smaller(simd, bound.0.into(), x.0.into()).simd_into(simd))
+            }
             #[inline(always)]
             fn fused(a: Wide<Self>, b: Wide<Self>, c: Wide<Self>) -> Wide<Self> {
                 // In one rounding from AVX2 on, in two before.
@@ -335,6 +371,10 @@ macro_rules! x86_lanes {
                 x * Self::rsqrt::<super::Fast>(x.max(x.lift(f32::MIN_POSITIVE as f64)))
             }
             #[inline(always)]
+            fn sqrt_of_normal(x: Wide<Self>) -> Wide<Self> {
+                x * Self::rsqrt::<super::Fast>(x)
+            }
+            #[inline(always)]
             fn rsqrt<P: Rough>(x: Wide<Self>) -> Wide<Self> {
                 fearless_simd::kernel!(
                     #[inline(always)]
@@ -356,8 +396,8 @@ use core::arch::x86_64::*;
 use fearless_simd::SimdInto as _;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 x86_lanes! {
-    Sse2, __m128, _mm_rcp_ps, _mm_rsqrt_ps;
-    Sse4_2, __m128, _mm_rcp_ps, _mm_rsqrt_ps;
-    Avx2, __m256, _mm256_rcp_ps, _mm256_rsqrt_ps;
-    Avx512, __m512, _mm512_rcp14_ps, _mm512_rsqrt14_ps;
+    Sse2, __m128, _mm_rcp_ps, _mm_rsqrt_ps, _mm_max_ps, _mm_min_ps;
+    Sse4_2, __m128, _mm_rcp_ps, _mm_rsqrt_ps, _mm_max_ps, _mm_min_ps;
+    Avx2, __m256, _mm256_rcp_ps, _mm256_rsqrt_ps, _mm256_max_ps, _mm256_min_ps;
+    Avx512, __m512, _mm512_rcp14_ps, _mm512_rsqrt14_ps, _mm512_max_ps, _mm512_min_ps;
 }
