@@ -1,96 +1,209 @@
 //! Batches beside the plain loops that a good engineer writes: ratios, interleaved in one run.
 //!
 //! ```text
-//! cargo bench -p lobe-benches --bench batch [-- NAME]
+//! cargo bench -p lobe-benches --bench batch [-- NAME...]
 //! ```
 //!
 //! The baseline is the same formula as a plain `f32` loop over the same slices, with `glam` and `powf`, compiled for the
 //! default target, where the compiler vectorises what it can. Each figure is the median of many rounds, in each of which
-//! every contender runs once; in brackets the spread, half of the range from the first quartile to the third.
+//! every contender runs once, over several buffers in turn; the ratio is the median of the rounds' ratios, with its
+//! quartiles.
 
-use lobe::batch::{Batch, Level};
-use lobe::distribution::Ggx;
-use lobe::fresnel::Schlick;
-use lobe::masking::SmithCorrelated;
+use lobe::batch::{Batch, Kernel, Level, Shade};
+use lobe::distribution::{Beckmann, Ggx};
+use lobe::fresnel::{Conductor, Schlick};
+use lobe::masking::{RationalBeckmann, SmithCorrelated};
 use lobe::number::{Coarse, Fast};
-use lobe::{Alpha, Microfacet, Rgb, Vec3};
-use lobe_benches::{plain, slices::Slices};
+use lobe::{
+    Alpha, AshikhminShirley, BlinnPhong, MetallicRoughness, Microfacet, OrenNayarQualitative, Real, Rgb, Shininess,
+    Vec3, Ward,
+};
+use lobe_benches::plain_batches as plain;
+use lobe_benches::slices::Slices;
 use std::hint::black_box;
 use std::time::Instant;
 
-const COUNT: usize = 1024;
+/// Points in a batch that stays in the first cache: nine slices of 2 KiB.
+const CACHED: usize = 512;
+/// Batches of them, so that nothing is learnt about one.
+const BUFFERS: usize = 4;
 
-fn main() {
-    let s = Slices::new(COUNT);
-    let (l, v) = (s.l(), s.v());
-    let mut out = [vec![0.0_f32; COUNT], vec![0.0; COUNT], vec![0.0; COUNT]];
-    let plain = plain::Ggx { alpha: 0.3, f0: glam::Vec3::new(0.9, 0.6, 0.3) };
-    let ours = Microfacet::new(Ggx::new(Alpha(0.3)), SmithCorrelated, Schlick::new(Rgb::new(0.9_f32, 0.6, 0.3)));
-    let level = Level::new();
-    let mut levels = vec![Batch::at(level)];
-    levels.extend(level.as_avx2().map(|x| Batch::at(Level::Avx2(x))));
-    levels.extend(level.as_sse4_2().map(|x| Batch::at(Level::Sse4_2(x))));
-    levels.push(Batch::at(Level::baseline()));
-    let mut times = vec![Vec::new(); 1 + 3 * levels.len()];
-    for _ in 0..400 {
-        let mut k = 0;
-        let mut time = |f: &mut dyn FnMut(Vec3<&[f32]>, Vec3<&[f32]>, Rgb<&mut [f32]>)| {
-            let [r, g, b] = &mut out;
-            let start = Instant::now();
-            for _ in 0..8 {
-                f(black_box(l), black_box(v), Rgb { r: &mut *r, g: &mut *g, b: &mut *b });
-                black_box(&*r);
-            }
-            times[k].push(start.elapsed().as_secs_f64() * 1e9 / (8 * COUNT) as f64);
-            k += 1;
-        };
-        time(&mut |l, v, out| plain_loop(&plain, l, v, out.r, out.g, out.b));
-        for batch in &levels {
-            time(&mut |l, v, out| batch.eval_cos(&ours, l, v, out).unwrap());
-            time(&mut |l, v, out| batch.precision::<Fast>().eval_cos(&ours, l, v, out).unwrap());
-            time(&mut |l, v, out| batch.precision::<Coarse>().eval_cos(&ours, l, v, out).unwrap());
-        }
+/// Somewhere to write to.
+struct Out([Vec<f32>; 3]);
+
+impl Out {
+    fn new(count: usize) -> Self {
+        Self(std::array::from_fn(|_| vec![0.0; count]))
     }
-    let medians: Vec<f64> = times
-        .iter_mut()
-        .map(|t| {
-            t.sort_by(f64::total_cmp);
-            t[t.len() / 2]
-        })
-        .collect();
-    println!("plain {:.3} ns", medians[0]);
-    for (i, m) in medians[1..].chunks(3).enumerate() {
-        println!("{:?}", levels[i].level());
-        for x in m {
-            println!("   {x:.3} ns  {:.2}x", medians[0] / x);
-        }
+    fn get(&mut self) -> Rgb<&mut [f32]> {
+        let [r, g, b] = &mut self.0;
+        Rgb { r, g, b }
     }
 }
 
+type Run<'a> = (String, Box<dyn FnMut(&Slices, &mut Out) + 'a>);
+
+/// The loop of the baseline. The outputs are arguments of their own, so that the compiler knows that they do not overlap.
 #[inline(never)]
-fn plain_loop(lobe: &plain::Ggx, l: Vec3<&[f32]>, v: Vec3<&[f32]>, r: &mut [f32], g: &mut [f32], b: &mut [f32]) {
-    let n = l.x.len();
+fn plain_loop(
+    l: Vec3<&[f32]>,
+    v: Vec3<&[f32]>,
+    r: &mut [f32],
+    g: &mut [f32],
+    b: &mut [f32],
+    f: impl Fn(glam::Vec3, glam::Vec3) -> glam::Vec3,
+) {
+    let n = r.len();
+    let (g, b) = (&mut g[..n], &mut b[..n]);
     let (lx, ly, lz) = (&l.x[..n], &l.y[..n], &l.z[..n]);
     let (vx, vy, vz) = (&v.x[..n], &v.y[..n], &v.z[..n]);
-    let (r, g, b) = (&mut r[..n], &mut g[..n], &mut b[..n]);
-    let lobe = *lobe;
     for i in 0..n {
-        let (l, v) = (glam::Vec3::new(lx[i], ly[i], lz[i]), glam::Vec3::new(vx[i], vy[i], vz[i]));
-        let s = l + v;
-        let h = s * (1.0 / s.dot(s).sqrt());
-        let a2 = lobe.alpha * lobe.alpha;
-        let q = h.z * h.z * (a2 - 1.0) + 1.0;
-        let d = a2 / (std::f32::consts::PI * q * q);
-        let masked = |c: f32| (c * c * (1.0 - a2) + a2).sqrt();
-        let (nl, nv) = (l.z.max(1e-6), v.z.max(1e-6));
-        let visibility = 0.5 / (nl * masked(nv) + nv * masked(nl));
-        let x = 1.0 - v.dot(h);
-        let x2 = x * x;
-        let fresnel = lobe.f0 + (glam::Vec3::ONE - lobe.f0) * (x2 * x2 * x);
-        let w = d * visibility * nl;
-        let f = fresnel * w;
+        let f = f(glam::Vec3::new(lx[i], ly[i], lz[i]), glam::Vec3::new(vx[i], vy[i], vz[i]));
         r[i] = f.x;
         g[i] = f.y;
         b[i] = f.z;
     }
+}
+
+/// Runs every contender once per round, and prints the medians of their times and of their ratios to the first.
+fn compare(title: &str, count: usize, runs: &mut [Run<'_>]) {
+    let wanted: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
+    if !wanted.is_empty() && !wanted.iter().any(|name| title.contains(name.as_str())) {
+        return;
+    }
+    let test = std::env::args().any(|argument| argument == "--test");
+    let inputs: Vec<Slices> = (0..BUFFERS).map(|k| Slices::of(count, k as u64)).collect();
+    let mut out = Out::new(count);
+    let rounds = if test { 2 } else { (40_000_000 / count / runs.len()).clamp(16, 600) / BUFFERS };
+    let mut times = vec![Vec::new(); runs.len()];
+    for _ in 0..rounds {
+        for ((_, run), times) in runs.iter_mut().zip(&mut times) {
+            let start = Instant::now();
+            for slices in &inputs {
+                run(black_box(slices), &mut out);
+                black_box(&out.0);
+            }
+            times.push(start.elapsed().as_secs_f64() * 1e9 / (count * BUFFERS) as f64);
+        }
+    }
+    println!("{title}");
+    for ((name, _), mine) in runs.iter().zip(&times) {
+        let ratios: Vec<f64> = times[0].iter().zip(mine).map(|(plain, mine)| plain / mine).collect();
+        let (low, ratio, high) = quartiles(ratios);
+        println!("  {name:<28} {:>8.3} ns  {ratio:>6.2} x  [{low:.2}, {high:.2}]", quartiles(mine.clone()).1);
+    }
+}
+
+fn quartiles(mut values: Vec<f64>) -> (f64, f64, f64) {
+    values.sort_by(f64::total_cmp);
+    let at = |part: usize| values[(values.len() - 1) * part / 4];
+    (at(1), at(2), at(3))
+}
+
+/// A lobe of ours to both precisions, and its plain version.
+macro_rules! lobes {
+    ($batch:ident; $($title:literal: $plain:expr, $lobe:expr;)+) => {$(
+        {
+            let (plain, lobe) = ($plain, $lobe);
+            let mut runs: Vec<Run<'_>> = vec![(
+                "plain".into(),
+                Box::new(move |s: &Slices, out: &mut Out| {
+                    let [r, g, b] = &mut out.0;
+                    plain_loop(s.l(), s.v(), r, g, b, plain);
+                }),
+            )];
+            runs.push(("precise".into(), Box::new(|s: &Slices, out: &mut Out| {
+                $batch.eval_cos(&lobe, s.l(), s.v(), out.get()).expect("one length");
+            })));
+            runs.push(("fast".into(), Box::new(|s: &Slices, out: &mut Out| {
+                $batch.precision::<Fast>().eval_cos(&lobe, s.l(), s.v(), out.get()).expect("one length");
+            })));
+            runs.push(("coarse".into(), Box::new(|s: &Slices, out: &mut Out| {
+                $batch.precision::<Coarse>().eval_cos(&lobe, s.l(), s.v(), out.get()).expect("one length");
+            })));
+            compare($title, CACHED, &mut runs);
+        }
+    )+};
+}
+
+/// The roots and divisions of GGX, and nothing else.
+struct Divider;
+impl<R: Real> Kernel<(Vec3<R>, Vec3<R>), Rgb<R>> for Divider {
+    #[inline(always)]
+    fn apply(&self, (l, v): (Vec3<R>, Vec3<R>)) -> Rgb<R> {
+        Rgb { r: l.x.sqrt() + l.y / v.x, g: l.z.sqrt() + v.y / v.z, b: v.x.sqrt() }
+    }
+}
+
+/// Six numbers in, three out.
+struct Move;
+impl<R: Real> Kernel<(Vec3<R>, Vec3<R>), Rgb<R>> for Move {
+    #[inline(always)]
+    fn apply(&self, (l, v): (Vec3<R>, Vec3<R>)) -> Rgb<R> {
+        Rgb { r: l.x + v.x, g: l.y + v.y, b: l.z + v.z }
+    }
+}
+
+fn main() {
+    let best = Batch::at(Level::new());
+    println!("level: {:?}", best.level());
+    let (grey, rgb) = (glam::Vec3::new(0.9, 0.6, 0.3), Rgb::new(0.9_f32, 0.6, 0.3));
+    let ggx = Microfacet::new(Ggx::new(Alpha(0.3)), SmithCorrelated, Schlick::new(rgb));
+    let (eta, k) = ([0.2_f32, 0.9, 1.1], [3.9_f32, 2.4, 2.2]);
+    let conductor = Microfacet::new(Ggx::new(Alpha(0.3)), SmithCorrelated, Conductor::new(eta.into(), k.into()));
+
+    lobes! { best;
+        "ggx, schlick": move |l, v| plain::ggx(0.3, grey, l, v), ggx;
+        "ggx, exact conductor": move |l, v| plain::ggx_conductor(0.3, eta.into(), k.into(), l, v), conductor;
+        "blinn-phong, q = 50": move |l, v| plain::blinn_phong(50.0, grey, l, v), <BlinnPhong>::new(rgb, Shininess(50.0));
+        "beckmann": move |l, v| plain::beckmann(0.3, grey, l, v),
+            Microfacet::new(Beckmann::new(Alpha(0.3)), RationalBeckmann::new(Alpha(0.3)), Schlick::new(rgb));
+        "ward": move |l, v| plain::ward([0.2, 0.4], grey, l, v), Ward::new(rgb, Alpha(0.2), Alpha(0.4));
+        "ashikhmin-shirley": move |l, v| plain::ashikhmin_shirley(20.0, 80.0, grey, l, v),
+            AshikhminShirley::new(rgb, Shininess(20.0), Shininess(80.0));
+        "oren-nayar": move |l, v| plain::oren_nayar(0.4, grey, l, v), OrenNayarQualitative::new(rgb, 0.4);
+        "gltf": move |l, v| plain::gltf(grey, 0.5, 0.3, l, v), MetallicRoughness::new(rgb, 0.5, Alpha(0.3));
+    }
+
+    // What the exact Fresnel term costs.
+    let fast = best.precision::<Fast>();
+    compare("conductor for schlick", CACHED, &mut [
+        ("schlick, precise".into(), Box::new(|s, out| best.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length"))),
+        ("conductor, precise".into(), Box::new(|s, out| best.eval_cos(&conductor, s.l(), s.v(), out.get()).expect("one length"))),
+        ("schlick, fast".into(), Box::new(|s, out| fast.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length"))),
+        ("conductor, fast".into(), Box::new(|s, out| fast.eval_cos(&conductor, s.l(), s.v(), out.get()).expect("one length"))),
+    ]);
+
+    // The floors.
+    compare("floors of ggx", CACHED, &mut [
+        ("ggx, precise".into(), Box::new(|s, out| best.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length"))),
+        ("its roots and divisions".into(), Box::new(|s, out| best.run(&Divider, (s.l(), s.v()), out.get()).expect("one length"))),
+        ("its slices, moved".into(), Box::new(|s, out| best.run(&Move, (s.l(), s.v()), out.get()).expect("one length"))),
+    ]);
+    let streamed = 1 << 20;
+    compare("ggx, streaming from memory", streamed, &mut [
+        ("six slices to three, moved".into(), Box::new(|s, out| best.run(&Move, (s.l(), s.v()), out.get()).expect("one length"))),
+        ("ggx, precise".into(), Box::new(|s, out| best.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length"))),
+        ("ggx, fast".into(), Box::new(|s, out| fast.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length"))),
+    ]);
+
+    // Sixteen lights for one view.
+    let lights: Vec<Slices> = (0..16).map(|k| Slices::of(CACHED, 100 + k)).collect();
+    let columns: Vec<_> = lights.iter().map(|s| (s.l(), Rgb { r: s.v().x, g: s.v().y, b: s.v().z })).collect();
+    compare("16 lights, one view, fast", CACHED, &mut [
+        ("16 calls".into(), Box::new(|s, out| {
+            for &(l, e) in &columns {
+                fast.accumulate(&Shade(&ggx), (s.v(), (l, e)), out.get()).expect("one length");
+            }
+        })),
+        ("one call".into(), Box::new(|s, out| fast.shade_lights(&ggx, s.v(), &columns, out.get()).expect("one length"))),
+    ]);
+    compare("16 lights, one view, precise", CACHED, &mut [
+        ("16 calls".into(), Box::new(|s, out| {
+            for &(l, e) in &columns {
+                best.accumulate(&Shade(&ggx), (s.v(), (l, e)), out.get()).expect("one length");
+            }
+        })),
+        ("one call".into(), Box::new(|s, out| best.shade_lights(&ggx, s.v(), &columns, out.get()).expect("one length"))),
+    ]);
 }

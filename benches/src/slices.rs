@@ -7,10 +7,10 @@ use lobe::Vec3;
 pub struct Slices([Vec<f32>; 6]);
 
 impl Slices {
-    /// `count` pairs, those of [`directions`](crate::directions).
+    /// `count` pairs, those of [`directions_of`](crate::directions_of) the `seed`.
     #[must_use]
-    pub fn new(count: usize) -> Self {
-        let pairs = crate::directions(count);
+    pub fn of(count: usize, seed: u64) -> Self {
+        let pairs = crate::directions_of(count, seed);
         let column = |f: fn(&(glam::Vec3, glam::Vec3)) -> f32| pairs.iter().map(f).collect();
         Self([
             column(|p| p.0.x),
