@@ -167,43 +167,102 @@ fn main() {
 
     // What the exact Fresnel term costs.
     let fast = best.precision::<Fast>();
-    compare("conductor for schlick", CACHED, &mut [
-        ("schlick, precise".into(), Box::new(|s, out| best.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length"))),
-        ("conductor, precise".into(), Box::new(|s, out| best.eval_cos(&conductor, s.l(), s.v(), out.get()).expect("one length"))),
-        ("schlick, fast".into(), Box::new(|s, out| fast.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length"))),
-        ("conductor, fast".into(), Box::new(|s, out| fast.eval_cos(&conductor, s.l(), s.v(), out.get()).expect("one length"))),
-    ]);
+    compare(
+        "conductor for schlick",
+        CACHED,
+        &mut [
+            (
+                "schlick, precise".into(),
+                Box::new(|s, out| best.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length")),
+            ),
+            (
+                "conductor, precise".into(),
+                Box::new(|s, out| best.eval_cos(&conductor, s.l(), s.v(), out.get()).expect("one length")),
+            ),
+            (
+                "schlick, fast".into(),
+                Box::new(|s, out| fast.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length")),
+            ),
+            (
+                "conductor, fast".into(),
+                Box::new(|s, out| fast.eval_cos(&conductor, s.l(), s.v(), out.get()).expect("one length")),
+            ),
+        ],
+    );
 
     // The floors.
-    compare("floors of ggx", CACHED, &mut [
-        ("ggx, precise".into(), Box::new(|s, out| best.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length"))),
-        ("its roots and divisions".into(), Box::new(|s, out| best.run(&Divider, (s.l(), s.v()), out.get()).expect("one length"))),
-        ("its slices, moved".into(), Box::new(|s, out| best.run(&Move, (s.l(), s.v()), out.get()).expect("one length"))),
-    ]);
+    compare(
+        "floors of ggx",
+        CACHED,
+        &mut [
+            (
+                "ggx, precise".into(),
+                Box::new(|s, out| best.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length")),
+            ),
+            (
+                "its roots and divisions".into(),
+                Box::new(|s, out| best.run(&Divider, (s.l(), s.v()), out.get()).expect("one length")),
+            ),
+            (
+                "its slices, moved".into(),
+                Box::new(|s, out| best.run(&Move, (s.l(), s.v()), out.get()).expect("one length")),
+            ),
+        ],
+    );
     let streamed = 1 << 20;
-    compare("ggx, streaming from memory", streamed, &mut [
-        ("six slices to three, moved".into(), Box::new(|s, out| best.run(&Move, (s.l(), s.v()), out.get()).expect("one length"))),
-        ("ggx, precise".into(), Box::new(|s, out| best.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length"))),
-        ("ggx, fast".into(), Box::new(|s, out| fast.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length"))),
-    ]);
+    compare(
+        "ggx, streaming from memory",
+        streamed,
+        &mut [
+            (
+                "six slices to three, moved".into(),
+                Box::new(|s, out| best.run(&Move, (s.l(), s.v()), out.get()).expect("one length")),
+            ),
+            (
+                "ggx, precise".into(),
+                Box::new(|s, out| best.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length")),
+            ),
+            ("ggx, fast".into(), Box::new(|s, out| fast.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length"))),
+        ],
+    );
 
     // Sixteen lights for one view.
     let lights: Vec<Slices> = (0..16).map(|k| Slices::of(CACHED, 100 + k)).collect();
     let columns: Vec<_> = lights.iter().map(|s| (s.l(), Rgb { r: s.v().x, g: s.v().y, b: s.v().z })).collect();
-    compare("16 lights, one view, fast", CACHED, &mut [
-        ("16 calls".into(), Box::new(|s, out| {
-            for &(l, e) in &columns {
-                fast.accumulate(&Shade(&ggx), (s.v(), (l, e)), out.get()).expect("one length");
-            }
-        })),
-        ("one call".into(), Box::new(|s, out| fast.shade_lights(&ggx, s.v(), &columns, out.get()).expect("one length"))),
-    ]);
-    compare("16 lights, one view, precise", CACHED, &mut [
-        ("16 calls".into(), Box::new(|s, out| {
-            for &(l, e) in &columns {
-                best.accumulate(&Shade(&ggx), (s.v(), (l, e)), out.get()).expect("one length");
-            }
-        })),
-        ("one call".into(), Box::new(|s, out| best.shade_lights(&ggx, s.v(), &columns, out.get()).expect("one length"))),
-    ]);
+    compare(
+        "16 lights, one view, fast",
+        CACHED,
+        &mut [
+            (
+                "16 calls".into(),
+                Box::new(|s, out| {
+                    for &(l, e) in &columns {
+                        fast.accumulate(&Shade(&ggx), (s.v(), (l, e)), out.get()).expect("one length");
+                    }
+                }),
+            ),
+            (
+                "one call".into(),
+                Box::new(|s, out| fast.shade_lights(&ggx, s.v(), &columns, out.get()).expect("one length")),
+            ),
+        ],
+    );
+    compare(
+        "16 lights, one view, precise",
+        CACHED,
+        &mut [
+            (
+                "16 calls".into(),
+                Box::new(|s, out| {
+                    for &(l, e) in &columns {
+                        best.accumulate(&Shade(&ggx), (s.v(), (l, e)), out.get()).expect("one length");
+                    }
+                }),
+            ),
+            (
+                "one call".into(),
+                Box::new(|s, out| best.shade_lights(&ggx, s.v(), &columns, out.get()).expect("one length")),
+            ),
+        ],
+    );
 }

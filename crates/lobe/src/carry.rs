@@ -45,7 +45,10 @@ impl<T: Carry, const N: usize> Carry for [T; N] {
     type In<S: Real> = [T::In<S>; N];
     #[inline(always)]
     fn carry<S: Real>(&self, lift: &impl Fn(f32) -> S) -> Self::In<S> {
-        self.each_ref().map(|x| x.carry(lift))
+        self.each_ref().map(
+            #[inline(always)]
+            |x| x.carry(lift),
+        )
     }
 }
 

@@ -28,6 +28,9 @@ use std::fmt;
 /// Nor are those that only a cosine near 0 in the denominator lifts above it: the larger cosine times `f_r` is below it.
 pub const DARK: f64 = 1e-30;
 
+/// Where both cosines are below this, `D` of a half vector that is not normalised may have no digits left.
+const OPPOSITE: f32 = 1e-32;
+
 /// The target for the 99th percentile of a model whose bound is constant.
 pub const TARGET_99: f64 = 4e-6;
 
@@ -342,9 +345,15 @@ impl Subject<'_> {
         both(Quantity::EvalCos, self.single.eval_cos(l, v), self.double.eval_cos(wide_l, wide_v));
     }
 
+    /// The bound of the model there; none where both directions are so near the horizon that the half vector of opposite
+    /// ones has squares below the smallest normal number. They are looked at for what is not finite or negative.
+    fn bound_at(&self, (l, v): (Vec3, Vec3)) -> f64 {
+        if l.z.max(v.z) < OPPOSITE { f64::INFINITY } else { (self.bound)(l.map(f64::from), v.map(f64::from)) }
+    }
+
     /// Looks at one pair.
     fn look(&self, pair: (Vec3, Vec3), found: &mut Findings) {
-        let bound = (self.bound)(pair.0.map(f64::from), pair.1.map(f64::from));
+        let bound = self.bound_at(pair);
         self.values(pair, |quantity, value, exact| {
             let finite = self.promises.finite || quantity == Quantity::EvalCos;
             match judge(value, exact, bound, finite, lifted(pair, quantity)) {
@@ -396,7 +405,7 @@ impl Subject<'_> {
 
     /// The worst value of a pair, if there is one that can be compared.
     fn worst_at(&self, pair: (Vec3, Vec3)) -> Option<Case> {
-        let bound = (self.bound)(pair.0.map(f64::from), pair.1.map(f64::from));
+        let bound = self.bound_at(pair);
         let mut worst: Option<(Quantity, f32, f64, f64)> = None;
         self.values(pair, |quantity, value, exact| {
             // A fault that only the search has found is as bad as can be.

@@ -25,6 +25,8 @@ pub trait Columns: Copy {
     fn visit<'a, E>(&'a self, f: &mut impl FnMut(&'a [f32]) -> Result<(), E>) -> Result<(), E>;
     /// The structure of what `next` gives for each slice, in order, and `uniform` for each [`Uniform`].
     fn load<R>(&self, next: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R>;
+    /// The structure of `f` of each slice, and of `uniform` for each [`Uniform`].
+    fn read<R>(&self, f: &impl Fn(&[f32]) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R>;
     /// The structure of `f` of what stands for each slice, and of `uniform` for each [`Uniform`].
     fn map<A, R>(&self, from: &Self::At<A>, f: &impl Fn(&A) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R>;
 }
@@ -68,6 +70,10 @@ impl Columns for &[f32] {
         next()
     }
     #[inline(always)]
+    fn read<R>(&self, f: &impl Fn(&[f32]) -> R, _: &impl Fn(f32) -> R) -> R {
+        f(self)
+    }
+    #[inline(always)]
     fn map<A, R>(&self, from: &A, f: &impl Fn(&A) -> R, _: &impl Fn(f32) -> R) -> R {
         f(from)
     }
@@ -82,6 +88,10 @@ impl Columns for Uniform {
     }
     #[inline(always)]
     fn load<R>(&self, _: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> R {
+        uniform(self.0)
+    }
+    #[inline(always)]
+    fn read<R>(&self, _: &impl Fn(&[f32]) -> R, uniform: &impl Fn(f32) -> R) -> R {
         uniform(self.0)
     }
     #[inline(always)]
@@ -128,6 +138,10 @@ macro_rules! structures {
             #[inline(always)]
             fn load<R>(&self, next: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
                 $name { $($field: self.$field.load(next, uniform)),+ }
+            }
+            #[inline(always)]
+            fn read<R>(&self, f: &impl Fn(&[f32]) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
+                $name { $($field: self.$field.read(f, uniform)),+ }
             }
             #[inline(always)]
             fn map<A, R>(&self, from: &Self::At<A>, f: &impl Fn(&A) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
@@ -180,6 +194,10 @@ macro_rules! tuples {
             #[inline(always)]
             fn load<R>(&self, next: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
                 ($(self.$index.load(next, uniform),)+)
+            }
+            #[inline(always)]
+            fn read<R>(&self, f: &impl Fn(&[f32]) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
+                ($(self.$index.read(f, uniform),)+)
             }
             #[inline(always)]
             fn map<From, R>(&self, from: &Self::At<From>, f: &impl Fn(&From) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {

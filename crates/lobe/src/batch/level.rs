@@ -86,10 +86,17 @@ fn call(f: impl FnOnce()) {
 const MAX_LANES: usize = 16;
 
 /// The whole batch: what fills registers, and then the rest by way of buffers that are padded to one, through the same
-/// instructions. With `ADD` the results are added to what is there.
+/// instructions. `start` is 0, or where the rest begins: then it is the rest alone. With `ADD` the results are added to
+/// what is there.
 #[inline]
-fn run<F, P, K, C, O, const ADD: bool>(token: F::Token, kernel: &K, inputs: C, outputs: O, count: usize)
-where
+fn run_from<F, P, K, C, O, const ADD: bool>(
+    token: F::Token,
+    kernel: &K,
+    inputs: C,
+    outputs: O,
+    start: usize,
+    count: usize,
+) where
     F: Register,
     P: Precision,
     C: Columns,
@@ -108,7 +115,7 @@ where
 
     let rest = count % F::LANES;
     let whole = count - rest;
-    if whole > 0 {
+    if whole > start {
         let out = out.each_mut().map(|slice| &mut **slice);
         registers::<F, P, K, C, O, ADD>(token, kernel, inputs, &slices, out, whole / F::LANES);
     }
@@ -199,9 +206,35 @@ fn registers<F, P, K, C, O, const ADD: bool>(
     );
 }
 
-/// `out += Σ kernel(v, light)`, a register of points after the other, each for all lights.
-#[inline(never)]
+/// `out += Σ kernel(v, light)`: whole registers of points one after the other, each for all lights, and then what is left
+/// for one light after the other.
+#[inline]
 fn run_lights<F, P, K, L>(
+    token: F::Token,
+    kernel: &K,
+    v: Vec3<&[f32]>,
+    lights: &[L],
+    out: Rgb<&mut [f32]>,
+    count: usize,
+) where
+    F: Register,
+    P: Precision,
+    L: Columns,
+    K: Kernel<(Vec3<P::Of<F>>, L::At<P::Of<F>>), Rgb<P::Of<F>>>,
+{
+    let rest = count % F::LANES;
+    register_lights::<F, P, K, L>(token, kernel, v, lights, Rgb { r: out.r, g: out.g, b: out.b }, count / F::LANES);
+    if rest > 0 {
+        for light in lights {
+            let out = Rgb { r: &mut *out.r, g: &mut *out.g, b: &mut *out.b };
+            run_from::<F, P, K, _, _, true>(token, kernel, (v, *light), out, count - rest, count);
+        }
+    }
+}
+
+/// The first `count` registers of each slice.
+#[inline(never)]
+fn register_lights<F, P, K, L>(
     token: F::Token,
     kernel: &K,
     v: Vec3<&[f32]>,
@@ -217,51 +250,30 @@ fn run_lights<F, P, K, L>(
     F::run(
         token,
         #[inline(always)]
-        || {
-            for i in 0..count.div_ceil(F::LANES) {
-                let read = |slice: &[f32]| P::number(read_padded::<F>(token, slice, i));
-                let v = v.map(read);
-                let mut sum = Rgb { r: read(out.r), g: read(out.g), b: read(out.b) };
+        move || {
+            let v = v.map(
+                #[inline(always)]
+                |slice| F::arrays(slice),
+            );
+            let (r, g, b) = (F::arrays_mut(out.r), F::arrays_mut(out.g), F::arrays_mut(out.b));
+            for i in 0..count {
+                let read = |arrays: &[F::Array]| {
+                    P::number(arrays.get(i).map_or_else(|| F::splat(token, 0.0), |array| F::read(token, array)))
+                };
+                let v = Vec3::new(read(v.x), read(v.y), read(v.z));
+                let mut sum = Rgb { r: read(r), g: read(g), b: read(b) };
                 for light in lights {
-                    let slices = collect(light);
-                    let mut from = slices.iter();
-                    let light = light.load(&mut || from.next().map_or_else(|| read(&[]), |slice| read(slice)), &|x| {
-                        P::number(F::splat(token, x))
-                    });
+                    let light = light.read(&|slice| read(F::arrays(slice)), &|x| P::number(F::splat(token, x)));
                     sum = sum + kernel.apply((v, light));
                 }
-                write_partly(P::value(sum.r), out.r, i);
-                write_partly(P::value(sum.g), out.g, i);
-                write_partly(P::value(sum.b), out.b, i);
+                if let (Some(r), Some(g), Some(b)) = (r.get_mut(i), g.get_mut(i), b.get_mut(i)) {
+                    P::value(sum.r).write(r);
+                    P::value(sum.g).write(g);
+                    P::value(sum.b).write(b);
+                }
             }
         },
     );
-}
-
-/// The `i`th register of a slice, or what is left of one.
-#[inline(always)]
-fn read_padded<F: Register>(token: F::Token, slice: &[f32], i: usize) -> F {
-    match F::arrays(slice).get(i) {
-        Some(array) => F::read(token, array),
-        None => {
-            let buffer = padded(slice.get(i * F::LANES..).unwrap_or(&[]));
-            F::arrays(&buffer).first().map_or_else(|| F::splat(token, 0.0), |array| F::read(token, array))
-        }
-    }
-}
-
-/// Writes as many lanes as the slice has room for, from its `i`th register on.
-#[inline(always)]
-fn write_partly<F: Register>(lanes: F, slice: &mut [f32], i: usize) {
-    if let Some(array) = F::arrays_mut(slice).get_mut(i) {
-        lanes.write(array);
-    } else {
-        let mut buffer = [0.0; MAX_LANES];
-        if let Some(array) = F::arrays_mut(&mut buffer).first_mut() {
-            lanes.write(array);
-        }
-        copy(slice.get_mut(i * F::LANES..).unwrap_or(&mut []), &buffer);
-    }
 }
 
 /// A register with the last number again and again, so that no lane holds anything that the caller did not give.
@@ -313,9 +325,9 @@ macro_rules! levels {
             #[inline]
             fn run_at<const ADD: bool>(&self, level: Level, inputs: C, outputs: O, count: usize) {
                 match level {
-                    $(Level::$variant(simd) => run::<$register, P, K, C, O, ADD>(simd, self, inputs, outputs, count),)*
+                    $(Level::$variant(simd) => run_from::<$register, P, K, C, O, ADD>(simd, self, inputs, outputs, 0, count),)*
                     #[allow(unreachable_patterns, reason = "where the target has a level built in, lower ones do not exist")]
-                    _ => run::<f32, P, K, C, O, ADD>((), self, inputs, outputs, count),
+                    _ => run_from::<f32, P, K, C, O, ADD>((), self, inputs, outputs, 0, count),
                 }
             }
         }

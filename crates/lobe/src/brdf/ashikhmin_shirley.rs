@@ -107,7 +107,10 @@ impl<R: Real> AshikhminShirley<R> {
         let value = self.peak * power;
         // A zero is kept: what it would be divided by may be 0 at the horizon.
         let value = R::select(value.eq(value.lift(0.0)), value, factor(value, cos_d));
-        fresnel.map(|f| f * value + zero_or_nan(l, v))
+        fresnel.map(
+            #[inline(always)]
+            |f| f * value + zero_or_nan(l, v),
+        )
     }
 }
 
@@ -115,7 +118,12 @@ impl<R: Real> Brdf<R> for AshikhminShirley<R> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
         // One after the other: the product of two cosines of 1e-20 underflows.
-        self.lobe(l, v, |value, cos_d| value / l.z.max(v.z) / cos_d)
+        self.lobe(
+            l,
+            v,
+            #[inline(always)]
+            |value, cos_d| value / l.z.max(v.z) / cos_d,
+        )
     }
 
     /// `(n·l)/max(n·l, n·v) ≤ 1` is finite; what is left of the denominator is `l·h`.
@@ -125,7 +133,12 @@ impl<R: Real> Brdf<R> for AshikhminShirley<R> {
         // Without the bound a pixel at the horizon is infinite, and the mean of its neighbours too (test
         // `bounded_at_the_horizon`).
         let bounded = |x: R| x.min(x.lift((1u128 << 127) as f64));
-        self.lobe(l, v, |value, cos_d| bounded(value * (share / cos_d)))
+        self.lobe(
+            l,
+            v,
+            #[inline(always)]
+            |value, cos_d| bounded(value * (share / cos_d)),
+        )
     }
 }
 
@@ -149,7 +162,10 @@ impl<R: Real> AshikhminShirleyDiffuse<R> {
     /// The diffuse lobe `ρ` beneath a surface that reflects `f0`.
     #[inline(always)]
     pub fn new(albedo: Rgb<R>, f0: Rgb<R>) -> Self {
-        let transmitted = f0.map(|f| f.lift(1.0) - f);
+        let transmitted = f0.map(
+            #[inline(always)]
+            |f| f.lift(1.0) - f,
+        );
         Self { albedo, f0, factor: albedo * transmitted * albedo.r.lift(28.0 / (23.0 * PI)) }
     }
 

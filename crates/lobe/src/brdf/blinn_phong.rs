@@ -119,6 +119,11 @@ impl<R: Real, N: Normalization> Brdf<R> for BlinnPhong<R, N> {
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
         self.peak * power::half_vector_lobe(l, v, self.q.0)
     }
+
+    #[inline(always)]
+    fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.peak * (power::half_vector_lobe(l, v, self.q.0) * l.z.max(l.z.lift(0.0)))
+    }
 }
 
 // Written out, because `derive` would ask the same of the marker `N`, which is never a value.

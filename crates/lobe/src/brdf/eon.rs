@@ -52,7 +52,10 @@ impl<R: Real> Eon<R> {
         let mean = a * roughness.times(MEAN).plus(1.0);
         // 1 − Ē.
         let lost = a * roughness.times(LOSS - MEAN);
-        let multiple = albedo.map(|rho| rho.squared() * mean / (rho.lift(1.0) - rho * lost));
+        let multiple = albedo.map(
+            #[inline(always)]
+            |rho| rho.squared() * mean / (rho.lift(1.0) - rho * lost),
+        );
         let scale = FRAC_1_PI * FRAC_1_PI * FRAC_1_PI / (LOSS - MEAN);
         Self {
             albedo,

@@ -51,4 +51,9 @@ impl<R: Real> Brdf<R> for Lambert<R> {
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
         self.albedo * above_horizon(l, v, l.z.lift(FRAC_1_PI))
     }
+
+    #[inline(always)]
+    fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.albedo * above_horizon(l, v, l.z.times(FRAC_1_PI))
+    }
 }

@@ -71,4 +71,9 @@ impl<R: Real> Brdf<R> for Phong<R> {
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
         self.peak * power::mirror_lobe(l, v, self.q.0)
     }
+
+    #[inline(always)]
+    fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        self.peak * (power::mirror_lobe(l, v, self.q.0) * l.z.max(l.z.lift(0.0)))
+    }
 }

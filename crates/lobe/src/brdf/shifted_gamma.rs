@@ -89,7 +89,10 @@ impl<R: Real> ShiftedGamma<R> {
     /// The same lobe in another number type.
     #[inline(always)]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> ShiftedGamma<S> {
-        ShiftedGamma::new(self.channels.map(|c| c.map(&f)))
+        ShiftedGamma::new(self.channels.map(
+            #[inline(always)]
+            |c| c.map(&f),
+        ))
     }
 
     #[inline(always)]
@@ -102,11 +105,14 @@ impl<R: Real> ShiftedGamma<R> {
         let away = Incidence::halfway(l, v, cos_d).one_minus_cos;
         let (theta_l, theta_v) = (angle(l), angle(v));
         let visibility = above_horizon(l, v, visibility.min(visibility.lift(END)));
-        self.channels.map(|c| {
-            let masking = g1(&c, theta_l) * g1(&c, theta_v);
-            let fresnel = (c.f0 - c.f1 * cos_d) + (away.lift(1.0) - c.f0) * fifth_power(away);
-            c.ks * fresnel.max(away.lift(0.0)) * (d(&c, tan2) * masking) * visibility
-        })
+        self.channels.map(
+            #[inline(always)]
+            |c| {
+                let masking = g1(&c, theta_l) * g1(&c, theta_v);
+                let fresnel = (c.f0 - c.f1 * cos_d) + (away.lift(1.0) - c.f0) * fifth_power(away);
+                c.ks * fresnel.max(away.lift(0.0)) * (d(&c, tan2) * masking) * visibility
+            },
+        )
     }
 }
 

@@ -39,7 +39,15 @@ impl<R: Real> Gaussian<R> {
     #[inline]
     pub fn anisotropic(x: Alpha<R>, y: Alpha<R>) -> Self {
         let widths = Widths::new(x, y);
-        Self { widths, peak: widths.peak / quadrature::mean_over_azimuth(&widths, |a2| area(a2.sqrt())) }
+        Self {
+            widths,
+            peak: widths.peak
+                / quadrature::mean_over_azimuth(
+                    &widths,
+                    #[inline(always)]
+                    |a2| area(a2.sqrt()),
+                ),
+        }
     }
 
     /// `αx` and `αy`.
@@ -59,7 +67,11 @@ impl<R: Real> Gaussian<R> {
 #[inline]
 fn area<R: Real>(alpha: R) -> R {
     let end = (alpha.lift(core::f64::consts::FRAC_PI_2) / alpha).min(alpha.lift(6.0));
-    quadrature::from_zero(end, |x| (-x.squared()).exp() * (x * alpha).times(2.0).sin_cos().0) / alpha
+    quadrature::from_zero(
+        end,
+        #[inline(always)]
+        |x| (-x.squared()).exp() * (x * alpha).times(2.0).sin_cos().0,
+    ) / alpha
 }
 
 impl<R: Real> Distribution<R> for Gaussian<R> {

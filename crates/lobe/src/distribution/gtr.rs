@@ -43,7 +43,11 @@ impl<R: Real> Gtr<R> {
     #[inline]
     pub fn anisotropic(x: Alpha<R>, y: Alpha<R>, gamma: R) -> Self {
         let widths = Widths::new(x, y);
-        let mean = quadrature::mean_over_azimuth(&widths, |a2| one_over_k(a2, gamma));
+        let mean = quadrature::mean_over_azimuth(
+            &widths,
+            #[inline(always)]
+            |a2| one_over_k(a2, gamma),
+        );
         Self { widths, gamma, peak: widths.peak / mean }
     }
 

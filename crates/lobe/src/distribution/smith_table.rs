@@ -75,16 +75,19 @@ const LAST: f64 = 1e9;
 #[inline]
 fn table<R: Real, const N: usize>(distribution: &impl Distribution<R>, width: Alpha<R>) -> [(R, R); N] {
     const { assert!(N >= 2) };
-    core::array::from_fn(|i| {
-        let u = i as f64 / (N - 1) as f64;
-        let (a, da_du) = if i + 1 < N { argument(u) } else { (f64::INFINITY, 0.0) };
-        let zero = width.0.lift(0.0);
-        if a > LAST {
-            return (zero, zero);
-        }
-        let (value, tail) = integrals(distribution, width.0, a);
-        (value, -tail.times(da_du / (N - 1) as f64))
-    })
+    core::array::from_fn(
+        #[inline(always)]
+        |i| {
+            let u = i as f64 / (N - 1) as f64;
+            let (a, da_du) = if i + 1 < N { argument(u) } else { (f64::INFINITY, 0.0) };
+            let zero = width.0.lift(0.0);
+            if a > LAST {
+                return (zero, zero);
+            }
+            let (value, tail) = integrals(distribution, width.0, a);
+            (value, -tail.times(da_du / (N - 1) as f64))
+        },
+    )
 }
 
 /// `I(a)` and `−I'(a)`, the integral of the density beyond `a`.
@@ -128,7 +131,7 @@ impl<R: Real, D: Distribution<R>, const N: usize> Distribution<R> for SmithTable
 }
 
 impl<R: Real, D: Distribution<R>, const N: usize> SmithLambda<R> for SmithTable<D, R, N> {
-    #[inline]
+    #[inline(always)]
     fn lambda_cos(&self, w: Vec3<R>) -> R {
         let s = self.widths.shrunk(w).sqrt();
         let (zero, one) = (s.lift(0.0), s.lift(1.0));

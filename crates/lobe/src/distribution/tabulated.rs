@@ -33,7 +33,7 @@ carry!([const N: usize] Tabulated<f32, N> => Tabulated<S, N> { values });
 
 impl<R: Real, const N: usize> Tabulated<R, N> {
     /// The distribution in proportion to these values, at the angles `i · 90°/(N − 1)`.
-    #[inline]
+    #[inline(always)]
     pub fn new(values: [R; N]) -> Self {
         const { assert!(N >= 2, "two values are needed, at the normal and at the horizon") };
         let step = FRAC_PI_2 / (N - 1) as f64;
@@ -41,9 +41,24 @@ impl<R: Real, const N: usize> Tabulated<R, N> {
         let integral = values.iter().enumerate().fold(None, |sum: Option<R>, (i, &p)| {
             let inner = sin * sin / step * libm::sin(2.0 * step * i as f64);
             let term = p.times(core::f64::consts::PI * if i == 0 || i == N - 1 { end } else { inner });
-            Some(sum.map_or(term, |sum| sum + term))
+            Some(sum.map_or(
+                term,
+                #[inline(always)]
+                |sum| sum + term,
+            ))
         });
-        Self { values: values.map(|p| integral.map_or(p, |integral| p / integral)) }
+        Self {
+            values: values.map(
+                #[inline(always)]
+                |p| {
+                    integral.map_or(
+                        p,
+                        #[inline(always)]
+                        |integral| p / integral,
+                    )
+                },
+            ),
+        }
     }
 
     /// The normalised values.
@@ -53,14 +68,14 @@ impl<R: Real, const N: usize> Tabulated<R, N> {
     }
 
     /// The same distribution in another number type.
-    #[inline]
+    #[inline(always)]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> Tabulated<S, N> {
         Tabulated::new(self.values.map(f))
     }
 }
 
 impl<R: Real, const N: usize> Distribution<R> for Tabulated<R, N> {
-    #[inline]
+    #[inline(always)]
     fn d(&self, h: Vec3<R>) -> R {
         let angle = (h.x.squared() + h.y.squared()).sqrt().atan2(h.z);
         interpolate(angle.times((N - 1) as f64 / FRAC_PI_2), &self.values)
@@ -68,7 +83,7 @@ impl<R: Real, const N: usize> Distribution<R> for Tabulated<R, N> {
 }
 
 /// `Σ vᵢ max(0, 1 − |x − i|)`.
-#[inline]
+#[inline(always)]
 fn interpolate<R: Real, const N: usize>(x: R, values: &[R; N]) -> R {
     let (zero, one) = (x.lift(0.0), x.lift(1.0));
     let mut sum = zero;

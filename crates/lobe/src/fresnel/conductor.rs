@@ -66,7 +66,12 @@ impl<R: Real> Conductor<R> {
 impl<R: Real> Fresnel<R> for Conductor<R> {
     #[inline(always)]
     fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R> {
-        zip(self.eta, self.k, |eta, k| reflectance(eta, eta.plus(-1.0) * eta.plus(1.0), k, incidence))
+        zip(
+            self.eta,
+            self.k,
+            #[inline(always)]
+            |eta, k| reflectance(eta, eta.plus(-1.0) * eta.plus(1.0), k, incidence),
+        )
     }
 }
 

@@ -44,12 +44,15 @@ impl<R: Real> CookFresnel<R> {
 impl<R: Real> Fresnel<R> for CookFresnel<R> {
     #[inline(always)]
     fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R> {
-        self.f0.map(|f0| {
-            // η = n/d with n = 1 + √F0, d = 1 − √F0 = (1 − F0)/n, n² − d² = 4 √F0.
-            let root = f0.sqrt();
-            let n = root.plus(1.0);
-            let d = (f0.lift(1.0) - f0) / n;
-            dielectric::reflectance(n, d, root.times(4.0), incidence)
-        })
+        self.f0.map(
+            #[inline(always)]
+            |f0| {
+                // η = n/d with n = 1 + √F0, d = 1 − √F0 = (1 − F0)/n, n² − d² = 4 √F0.
+                let root = f0.sqrt();
+                let n = root.plus(1.0);
+                let d = (f0.lift(1.0) - f0) / n;
+                dielectric::reflectance(n, d, root.times(4.0), incidence)
+            },
+        )
     }
 }

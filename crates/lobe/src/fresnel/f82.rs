@@ -28,10 +28,15 @@ impl<R: Real> F82Tint<R> {
     /// The form with reflectance `f0` at normal incidence and the tint near grazing.
     #[inline(always)]
     pub fn new(f0: Rgb<R>, tint: Rgb<R>) -> Self {
-        let b = zip(f0, tint, |f0, tint| {
-            let one = f0.lift(1.0);
-            (f0 + (one - f0).times(REMAINING_5)) * (one - tint).times(1.0 / (MU * REMAINING_5 * (1.0 - MU)))
-        });
+        let b = zip(
+            f0,
+            tint,
+            #[inline(always)]
+            |f0, tint| {
+                let one = f0.lift(1.0);
+                (f0 + (one - f0).times(REMAINING_5)) * (one - tint).times(1.0 / (MU * REMAINING_5 * (1.0 - MU)))
+            },
+        );
         Self { f0, tint, b }
     }
 
@@ -48,10 +53,15 @@ impl<R: Real> Fresnel<R> for F82Tint<R> {
         let x = incidence.one_minus_cos;
         let x5 = fifth_power(x);
         let bump = incidence.cos * (x5 * x);
-        zip(self.f0, self.b, |f0, b| {
-            let schlick = f0 + (f0.lift(1.0) - f0) * x5;
-            at_least_zero(at_most_one(schlick - b * bump))
-        })
+        zip(
+            self.f0,
+            self.b,
+            #[inline(always)]
+            |f0, b| {
+                let schlick = f0 + (f0.lift(1.0) - f0) * x5;
+                at_least_zero(at_most_one(schlick - b * bump))
+            },
+        )
     }
 }
 

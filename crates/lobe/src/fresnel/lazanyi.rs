@@ -41,9 +41,14 @@ impl<R: Real> Fresnel<R> for Lazanyi<R> {
         let x = incidence.one_minus_cos;
         let x5 = fifth_power(x);
         let bump = incidence.cos * x.pow(self.alpha);
-        zip(self.f0, self.a, |f0, a| {
-            let schlick = f0 + (f0.lift(1.0) - f0) * x5;
-            at_least_zero(at_most_one(schlick - a * bump))
-        })
+        zip(
+            self.f0,
+            self.a,
+            #[inline(always)]
+            |f0, a| {
+                let schlick = f0 + (f0.lift(1.0) - f0) * x5;
+                at_least_zero(at_most_one(schlick - a * bump))
+            },
+        )
     }
 }

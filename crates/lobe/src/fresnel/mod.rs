@@ -57,7 +57,14 @@ impl<R: Real> Incidence<R> {
     /// The angle of a cosine and the square of its sine, of which each has digits that the other lacks.
     #[inline(always)]
     pub fn new(cos: R, sin2: R) -> Self {
-        Self { cos, sin2, one_minus_cos: cos.one_minus(|| sin2 / cos.plus(1.0)) }
+        Self {
+            cos,
+            sin2,
+            one_minus_cos: cos.one_minus(
+                #[inline(always)]
+                || sin2 / cos.plus(1.0),
+            ),
+        }
     }
 
     /// The angle between `l` and the half vector of `l` and `v`, where `cos θ = |l + v|/2` is known:
@@ -76,7 +83,17 @@ impl<R: Real> Incidence<R> {
         let (value, exact) = quotient.with(Quotient::new(sin2, cos + one));
         // Below the horizon the denominator that is shared may be 0, and the quotient NaN. In this order the minimum drops
         // it: what is selected there is 0, and a NaN among the directions is added to that.
-        (Self { cos, sin2: sin2.min(one), one_minus_cos: cos.one_minus(|| one.min(exact)) }, value)
+        (
+            Self {
+                cos,
+                sin2: sin2.min(one),
+                one_minus_cos: cos.one_minus(
+                    #[inline(always)]
+                    || one.min(exact),
+                ),
+            },
+            value,
+        )
     }
 
     /// The angle between a unit vector of the local frame and the normal.

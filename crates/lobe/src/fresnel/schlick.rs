@@ -24,7 +24,13 @@ impl<R: Real> Schlick<R> {
     /// The form with this reflectance at normal incidence.
     #[inline(always)]
     pub fn new(f0: Rgb<R>) -> Self {
-        Self { f0, rest: f0.map(|f0| f0.lift(1.0) - f0) }
+        Self {
+            f0,
+            rest: f0.map(
+                #[inline(always)]
+                |f0| f0.lift(1.0) - f0,
+            ),
+        }
     }
 
     /// The form with a reflectance at grazing incidence of its own.
@@ -46,7 +52,12 @@ impl<R: Real> Fresnel<R> for Schlick<R> {
     #[inline(always)]
     fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R> {
         let x5 = fifth_power(incidence.one_minus_cos);
-        super::zip(self.f0, self.rest, |f0, rest| rest.mul_add(x5, f0))
+        super::zip(
+            self.f0,
+            self.rest,
+            #[inline(always)]
+            |f0, rest| rest.mul_add(x5, f0),
+        )
     }
 
     /// `(1 − f0)(1 − x⁵)`, with `1 − x⁵ = cos θ (1 + x + x² + x³ + x⁴)`: nothing cancels towards grazing incidence.
@@ -83,7 +94,12 @@ impl<R: Real> Fresnel<R> for SchlickF90<R> {
     fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R> {
         let x5 = fifth_power(incidence.one_minus_cos);
         let normal = self.f0 * one_minus_fifth_power(incidence);
-        super::zip(self.f90, normal, |f90, normal| at_most_one(f90.mul_add(x5, normal)))
+        super::zip(
+            self.f90,
+            normal,
+            #[inline(always)]
+            |f90, normal| at_most_one(f90.mul_add(x5, normal)),
+        )
     }
 
     /// `(1 − f0)(1 − x⁵) + (1 − f90) x⁵`: nothing cancels towards grazing incidence.

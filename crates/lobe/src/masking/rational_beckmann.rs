@@ -41,21 +41,29 @@ impl<R: Real> RationalBeckmann<R> {
         RationalBeckmann::anisotropic(self.widths.x.map(&f), self.widths.y.map(&f))
     }
 
-    /// `G₁(w)/cos θ`.
+    /// `G₁(w)/cos θ`, by `z = cos θ = a s`: `(3.535 s + 2.181 z)/(s² + 2.276 z s + 2.577 z²)`, and `1/z` for `a ≥ 1.6`.
     #[inline(always)]
-    fn g1_over_cos(&self, w: Vec3<R>) -> R {
-        let s = self.widths.shrunk(w).sqrt();
-        let a = w.z / s;
-        // At normal incidence a is infinite and the first form NaN; the mask does not choose it there.
-        let rational = (a.times(2.181).plus(3.535)) / (s * ((a.times(2.577).plus(2.276)) * a).plus(1.0));
-        let one = w.z.recip();
-        R::select(a.lt(a.lift(1.6)), rational.min(one), one)
+    fn g1_over_cos(&self, w: Vec3<R>) -> Quotient<R> {
+        let (z, s2) = (w.z, self.widths.shrunk(w));
+        let s = s2.sqrt();
+        let numerator = s.times(3.535) + z.times(2.181);
+        let denominator = (z.times(2.577) + s.times(2.276)).mul_add(z, s2);
+        // Just below 1.6 the quotient is rounded to above 1.
+        let masked = z.lt(s.times(1.6)) & (numerator * z).lt(denominator);
+        let one = z.lift(1.0);
+        Quotient::new(R::select(masked, numerator, one), R::select(masked, denominator, z))
     }
 }
 
 impl<R: Real, D> Masking<R, D> for RationalBeckmann<R> {
     #[inline(always)]
     fn quotient(&self, _distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> Quotient<R> {
-        Quotient::whole(weight.times(0.25) * (self.g1_over_cos(l) * self.g1_over_cos(v)))
+        let (l, v) = (self.g1_over_cos(l), self.g1_over_cos(v));
+        let scale = weight.lift(R::ROOT_SCALE);
+        // The square of a width of 1e-4 below the horizon of a small cosine: scaled, the product stays a normal number.
+        Quotient::new(
+            (weight.times(0.25 * R::SCALE)) * (l.numerator * v.numerator),
+            (l.denominator * scale) * (v.denominator * scale),
+        )
     }
 }

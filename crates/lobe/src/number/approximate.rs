@@ -171,6 +171,10 @@ impl<F: Estimate, P: Rough> Real for Approximate<F, P> {
         Self::new(self.value.lift(1.0) - self.value)
     }
     #[inline(always)]
+    fn sum_of_products((a, b): (Self, Self), (c, d): (Self, Self)) -> Self {
+        a.mul_add(b, c * d)
+    }
+    #[inline(always)]
     fn quotients((a, b): (Self, Self), (c, d): (Self, Self)) -> (Self, Self) {
         (a / b, c / d)
     }

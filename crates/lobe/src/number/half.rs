@@ -96,6 +96,7 @@ impl Real for Half {
     // (2 · 2⁶)² = 2¹⁴, and 2⁻¹⁴ · 2⁶ squared is 2⁻¹⁶: the range is too narrow to keep both ends.
     const ROOT_SCALE: f64 = 8.0;
     const MIN_POSITIVE: f64 = 1.0 / 16_384.0;
+    const NARROW: bool = true;
 
     #[inline(always)]
     fn lift(self, c: f64) -> Self {

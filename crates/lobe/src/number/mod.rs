@@ -74,6 +74,9 @@ pub trait Real:
     const SCALE: f64 = Self::ROOT_SCALE * Self::ROOT_SCALE;
     /// 2⁻¹²⁶ in `f32`, the smallest normal number: a floor for denominators that are 0 at one direction only.
     const MIN_POSITIVE: f64 = f32::MIN_POSITIVE as f64;
+    /// Whether the type has so few exponents that a formula had better normalise a vector than square its squares. A
+    /// choice by type, which costs nothing where it is not taken.
+    const NARROW: bool = false;
 
     /// The constant `c`, rounded to this type and in the shape of `self` (whose value does not matter).
     fn lift(self, c: f64) -> Self;
@@ -203,6 +206,24 @@ pub trait Real:
     fn recip(self) -> Self {
         self.lift(1.0) / self
     }
+    /// `self · other` and what its rounding lost, for numbers of at most 2⁶³ whose product is 0 or at least 2⁻¹⁰² in `f32`.
+    ///
+    /// Dekker 1971, with the halves of Veltkamp; machines that fuse get the same bits in two instructions. Of an `f64` the
+    /// halves sum to it too, and it needs no more.
+    #[inline(always)]
+    fn exact_product(self, other: Self) -> (Self, Self) {
+        exact_product(self, other)
+    }
+    /// `a b + c d`, with an error of a unit in the last place and `2u²` of the products.
+    #[inline(always)]
+    fn sum_of_products((a, b): (Self, Self), (c, d): (Self, Self)) -> Self {
+        let (p, p_rest) = a.exact_product(b);
+        let (q, q_rest) = c.exact_product(d);
+        let sum = p + q;
+        let q_part = sum - p;
+        let rest = (p - (sum - q_part)) + (q - q_part);
+        sum + (rest + (p_rest + q_rest))
+    }
     /// `(a/b, c/d)` by one division: `1/(b d)` times `a d` and `c b`. In `f32` each within 4 roundings.
     ///
     /// `b d` must stay within the range of the type. Numbers whose division is an estimate take two.
@@ -229,4 +250,20 @@ pub trait Real:
     fn squared(self) -> Self {
         self * self
     }
+}
+
+/// `a b`, and what its rounding lost (Dekker).
+#[inline(always)]
+fn exact_product<R: Real>(a: R, b: R) -> (R, R) {
+    let p = a * b;
+    let ((a_hi, a_lo), (b_hi, b_lo)) = (halves(a), halves(b));
+    (p, ((a_hi * b_hi - p) + (a_hi * b_lo + a_lo * b_hi)) + a_lo * b_lo)
+}
+
+/// The upper twelve bits of an `f32`, and the lower (Veltkamp).
+#[inline(always)]
+fn halves<R: Real>(a: R) -> (R, R) {
+    let c = a.times(4097.0);
+    let high = c - (c - a);
+    (high, a - high)
 }

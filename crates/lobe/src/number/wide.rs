@@ -109,6 +109,10 @@ impl<S: Lanes> Real for Wide<S> {
         Self(mask.0.select(a.0, b.0))
     }
     #[inline(always)]
+    fn exact_product(self, other: Self) -> (Self, Self) {
+        S::exact_product(self, other)
+    }
+    #[inline(always)]
     fn max(self, bound: Self) -> Self {
         S::max(self, bound)
     }
@@ -190,6 +194,11 @@ impl<S: Lanes> Binary32 for Wide<S> {
 ///
 /// For every level of `fearless_simd`; which instructions there are is known for each of them only.
 pub trait Lanes: Simd {
+    /// As [`Real::exact_product`].
+    #[inline(always)]
+    fn exact_product(a: Wide<Self>, b: Wide<Self>) -> (Wide<Self>, Wide<Self>) {
+        super::exact_product(a, b)
+    }
     /// As [`Real::max`]: `bound` where `bound > x`, else `x`.
     #[inline(always)]
     fn max(x: Wide<Self>, bound: Wide<Self>) -> Wide<Self> {
@@ -276,9 +285,22 @@ impl Lanes for fearless_simd::Fallback {}
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 impl Lanes for fearless_simd::WasmSimd128 {}
 
+/// `a b`, and what its rounding lost: one instruction each where products fuse with sums. The bits are those of Dekker's
+/// way, which is exact too.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64", target_arch = "aarch64"))]
+#[inline(always)]
+fn fused_product<S: Lanes>(a: Wide<S>, b: Wide<S>) -> (Wide<S>, Wide<S>) {
+    let p = a * b;
+    (p, S::fused(a, b, -p))
+}
+
 /// The estimates of NEON, 2⁻⁸, with a step of Newton's: 2⁻¹⁶.
 #[cfg(target_arch = "aarch64")]
 impl Lanes for fearless_simd::Neon {
+    #[inline(always)]
+    fn exact_product(a: Wide<Self>, b: Wide<Self>) -> (Wide<Self>, Wide<Self>) {
+        fused_product(a, b)
+    }
     #[inline(always)]
     fn fused(a: Wide<Self>, b: Wide<Self>, c: Wide<Self>) -> Wide<Self> {
         Wide(a.0.mul_add(b.0, c.0))
@@ -320,8 +342,12 @@ use fearless_simd::SimdInto as _;
 /// The estimates of x86, as they come: 2⁻¹⁴ with AVX-512, 1.5·2⁻¹² before.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 macro_rules! x86_lanes {
-    ($($level:ident, $register:ident, $rcp:ident, $rsqrt:ident, $max:ident, $min:ident;)+) => {$(
+    ($($level:ident, $register:ident, $rcp:ident, $rsqrt:ident, $max:ident, $min:ident, $product:path;)+) => {$(
         impl Lanes for fearless_simd::$level {
+            #[inline(always)]
+            fn exact_product(a: Wide<Self>, b: Wide<Self>) -> (Wide<Self>, Wide<Self>) {
+                $product(a, b)
+            }
             // The instructions return their second operand unless the first is beyond it, NaN or not.
             #[inline(always)]
             fn max(x: Wide<Self>, bound: Wide<Self>) -> Wide<Self> {
@@ -396,8 +422,8 @@ use core::arch::x86_64::*;
 use fearless_simd::SimdInto as _;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 x86_lanes! {
-    Sse2, __m128, _mm_rcp_ps, _mm_rsqrt_ps, _mm_max_ps, _mm_min_ps;
-    Sse4_2, __m128, _mm_rcp_ps, _mm_rsqrt_ps, _mm_max_ps, _mm_min_ps;
-    Avx2, __m256, _mm256_rcp_ps, _mm256_rsqrt_ps, _mm256_max_ps, _mm256_min_ps;
-    Avx512, __m512, _mm512_rcp14_ps, _mm512_rsqrt14_ps, _mm512_max_ps, _mm512_min_ps;
+    Sse2, __m128, _mm_rcp_ps, _mm_rsqrt_ps, _mm_max_ps, _mm_min_ps, super::exact_product;
+    Sse4_2, __m128, _mm_rcp_ps, _mm_rsqrt_ps, _mm_max_ps, _mm_min_ps, super::exact_product;
+    Avx2, __m256, _mm256_rcp_ps, _mm256_rsqrt_ps, _mm256_max_ps, _mm256_min_ps, fused_product;
+    Avx512, __m512, _mm512_rcp14_ps, _mm512_rsqrt14_ps, _mm512_max_ps, _mm512_min_ps, fused_product;
 }
