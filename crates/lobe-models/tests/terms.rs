@@ -24,7 +24,8 @@ fn named(distribution: &'static str, masking: &'static str, given: &[(&str, Valu
 }
 
 fn direct<D: Distribution<f64>, G: Masking<f64, D>>(d: D, g: G) -> Rgb<f64> {
-    Microfacet::new(d, g, Schlick::new(Rgb::from(F0))).eval(L, V)
+    // The catalogue has a reflectance at grazing incidence too, of 1.
+    Microfacet::new(d, g, Schlick::with_f90(Rgb::from(F0), Rgb::splat(1.0))).eval(L, V)
 }
 
 #[test]

@@ -42,6 +42,7 @@
 
 #![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
+mod batch;
 mod builtin;
 mod bvh;
 mod camera;

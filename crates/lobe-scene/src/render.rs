@@ -1,17 +1,19 @@
 //! A small ray caster that shades a scene with its lobes.
 //!
 //! For every sample of a pixel a ray finds the nearest triangle; there each light that is not in shadow gives
-//! `eval_cos(l, v) · E`, a mirror sends a ray on, and a dissolved surface lets one through.
+//! `eval_cos(l, v) · E`, a mirror sends a ray on, and a dissolved surface lets one through. The lobes are evaluated in
+//! batches: all lights at all points of a row that have one material.
 
+use crate::batch::LitPoints;
 use crate::bvh::{Bvh, Hit};
-use crate::camera::{FARTHEST, Rays};
+use crate::camera::FARTHEST;
 use crate::error::Error;
 use crate::image::Image;
 use crate::material::{Material, Surface};
 use crate::mesh::area_vector;
 use crate::scene::{Background, Light, Scene, View};
 use glam::Vec3;
-use lobe::{AmbientLight, Brdf, DirectionalLight, Frame, Incident, PointLight, Rgb, interpolate_normal};
+use lobe::{AmbientLight, DirectionalLight, Frame, Incident, PointLight, Rgb, interpolate_normal};
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -149,14 +151,30 @@ impl<'a> Renderer<'a> {
         let weight = 1.0 / settings.samples as f32;
         let rows_done = AtomicU64::new(0);
         let rows = u64::from(settings.height);
-        image.pixels_mut().par_chunks_exact_mut(settings.width as usize).enumerate().for_each(|(y, row)| {
-            for (x, pixel) in row.iter_mut().enumerate() {
-                *pixel = (pass.pixel(&rays, x, y, &samples, settings.depth) * weight).into();
-            }
-            if let Some(progress) = progress {
-                progress(rows_done.fetch_add(1, Ordering::Relaxed) + 1, rows);
-            }
-        });
+        let width = settings.width as usize;
+        image.pixels_mut().par_chunks_exact_mut(width).enumerate().for_each_init(
+            || Row::new(width, pass.materials.len()),
+            |row, (y, pixels)| {
+                for x in 0..width {
+                    for (sample, [dx, dy]) in samples.iter().enumerate() {
+                        let ray = Ray {
+                            origin: rays.eye,
+                            direction: rays.direction(x as f32 + dx, y as f32 + dy),
+                            weight: Rgb::splat(1.0),
+                            depth: settings.depth,
+                        };
+                        pass.follow(&ray, x, Jitter::new(x, y, sample), row);
+                    }
+                }
+                pass.shade(row);
+                for (pixel, sum) in pixels.iter_mut().zip(&mut row.sums) {
+                    *pixel = (std::mem::replace(sum, Rgb::splat(0.0)) * weight).into();
+                }
+                if let Some(progress) = progress {
+                    progress(rows_done.fetch_add(1, Ordering::Relaxed) + 1, rows);
+                }
+            },
+        );
         Ok(image)
     }
 }
@@ -323,80 +341,138 @@ impl Jitter {
     }
 }
 
-impl Pass<'_> {
-    fn pixel(&self, rays: &Rays, x: usize, y: usize, samples: &[[f32; 2]], depth: u32) -> Rgb {
-        let mut sum = Rgb::splat(0.0);
-        for (at, [dx, dy]) in samples.iter().enumerate() {
-            let direction = rays.direction(x as f32 + dx, y as f32 + dy);
-            sum = sum + self.radiance(rays.eye, direction, depth, Jitter::new(x, y, at));
+/// A ray on its way from the viewer, and the part of what it finds that reaches the pixel.
+struct Ray {
+    origin: Vec3,
+    direction: Vec3,
+    weight: Rgb,
+    depth: u32,
+}
+
+/// A row of pixels being computed.
+///
+/// First all of its rays are followed, and every light at every point that is met is put into the queue of its material.
+/// Then each queue is shaded as one batch, and last the lights that are not black there are looked for from their points.
+struct Row {
+    /// Of each pixel.
+    sums: Vec<Rgb>,
+    /// Of each material.
+    queues: Vec<Queue>,
+    /// What a batch has given, cleared after each.
+    reflected: [Vec<f32>; 3],
+}
+
+impl Row {
+    fn new(width: usize, materials: usize) -> Self {
+        Self {
+            sums: vec![Rgb::splat(0.0); width],
+            queues: (0..materials).map(|_| Queue::default()).collect(),
+            reflected: Default::default(),
         }
-        sum
+    }
+}
+
+/// The lights that may reach points of one material.
+#[derive(Default)]
+struct Queue {
+    lit: LitPoints,
+    ways: Vec<Way>,
+}
+
+/// From a point to a light, and where the light goes from there.
+struct Way {
+    start: Vec3,
+    to_light: Vec3,
+    distance: f32,
+    pixel: usize,
+    weight: Rgb,
+}
+
+impl Queue {
+    fn push(&mut self, point: &Point<'_>, light: Incident, v: lobe::Vec3, way: Way) {
+        self.lit.push(point.frame.to_local(light.l), v, light.irradiance);
+        self.ways.push(way);
     }
 
-    /// The radiance that arrives at `origin` from the unit direction `direction`.
-    fn radiance(&self, origin: Vec3, direction: Vec3, depth: u32, jitter: Jitter) -> Rgb {
+    fn clear(&mut self) {
+        self.lit.clear();
+        self.ways.clear();
+    }
+}
+
+impl Pass<'_> {
+    /// Adds to the pixel what arrives along the ray without a light, and puts the lights into their queues.
+    fn follow(&self, ray: &Ray, pixel: usize, jitter: Jitter, row: &mut Row) {
         let renderer = self.renderer;
-        let Some(hit) = renderer.bvh.nearest(origin.into(), direction.into(), f32::INFINITY) else {
-            return self.background.radiance(direction);
+        let Some(hit) = renderer.bvh.nearest(ray.origin.into(), ray.direction.into(), f32::INFINITY) else {
+            row.sums[pixel] = row.sums[pixel] + ray.weight * self.background.radiance(ray.direction);
+            return;
         };
         let triangle = &renderer.triangles[hit.triangle as usize];
         let material = &self.materials[triangle.material as usize];
-        let point = Point::new(triangle, &hit, direction);
-        if material.dissolve >= 1.0 || depth == 0 {
-            return self.surface(&point, material, depth, jitter);
+        let point = Point::new(triangle, &hit, ray.direction);
+        let mut weight = ray.weight;
+        if material.dissolve < 1.0 && ray.depth > 0 {
+            let behind = Ray {
+                origin: point.inside,
+                direction: ray.direction,
+                weight: weight * (1.0 - material.dissolve),
+                depth: ray.depth - 1,
+            };
+            self.follow(&behind, pixel, jitter, row);
+            if material.dissolve <= 0.0 {
+                return;
+            }
+            weight = weight * material.dissolve;
         }
-        let behind = self.radiance(point.inside, direction, depth - 1, jitter) * (1.0 - material.dissolve);
-        if material.dissolve <= 0.0 {
-            return behind;
-        }
-        self.surface(&point, material, depth, jitter) * material.dissolve + behind
-    }
-
-    fn surface(&self, point: &Point<'_>, material: &Material, depth: u32, jitter: Jitter) -> Rgb {
         let own = material.emission + material.ambient * self.lights.ambient.radiance;
-        let lit = match &material.surface {
-            Surface::Black => own,
-            Surface::Diffuse(lobes) => own + self.lit(point, lobes, jitter),
-            Surface::BlinnTorrance(lobes) => own + self.lit(point, lobes, jitter),
-            Surface::Phong(lobes) => own + self.lit(point, lobes, jitter),
-            Surface::NormalizedPhong(lobes) => own + self.lit(point, lobes, jitter),
-            Surface::NormalizedBlinnPhong(lobes) => own + self.lit(point, lobes, jitter),
-            Surface::Lobes(lobes) => own + self.lit(point, lobes.brdf(), jitter),
-            Surface::Other(lobes) => own + self.lit(point, &**lobes, jitter),
-        };
-        if is_black(material.mirror.ks()) || depth == 0 {
-            return lit;
+        row.sums[pixel] = row.sums[pixel] + weight * own;
+        if !matches!(material.surface, Surface::Black) {
+            self.queue_lights(&point, pixel, weight, jitter, &mut row.queues[triangle.material as usize]);
+        }
+        if is_black(material.mirror.ks()) || ray.depth == 0 {
+            return;
         }
         let seen = material.mirror.reflect(point.frame.to_local(point.v.into()));
         let mut direction: Vec3 = point.frame.to_world(seen.l).into();
         let below = direction.dot(point.face).min(0.0);
         direction = (direction - point.face * (2.0 * below)).normalize_or(point.face);
-        lit + seen.weight * self.radiance(point.outside, direction, depth - 1, jitter)
+        let mirrored = Ray { origin: point.outside, direction, weight: weight * seen.weight, depth: ray.depth - 1 };
+        self.follow(&mirrored, pixel, jitter, row);
     }
 
-    /// `Σ eval_cos(l, v) E` over the lights that reach the point.
-    fn lit<B: Brdf<f32> + ?Sized>(&self, point: &Point<'_>, lobes: &B, jitter: Jitter) -> Rgb {
+    fn queue_lights(&self, point: &Point<'_>, pixel: usize, weight: Rgb, jitter: Jitter, queue: &mut Queue) {
         let v = point.frame.to_local(point.v.into());
         let start = point.shadow_start();
-        let mut sum = Rgb::splat(0.0);
         for (light, radius) in &self.lights.points {
             let mut light = *light;
             if *radius > 0.0 {
                 light.position = (Vec3::from(light.position) + jitter.in_ball() * *radius).into();
             }
-            let reflected = reflected(point, lobes, v, light.at(point.position.into()));
-            if !is_black(reflected) {
-                let way = Vec3::from(light.position) - start;
-                sum = sum + reflected * self.visible(start, way.normalize_or_zero(), way.length());
-            }
+            let way = Vec3::from(light.position) - start;
+            let way = Way { start, to_light: way.normalize_or_zero(), distance: way.length(), pixel, weight };
+            queue.push(point, light.at(point.position.into()), v, way);
         }
         for light in &self.lights.directional {
-            let reflected = reflected(point, lobes, v, light.incident());
-            if !is_black(reflected) {
-                sum = sum + reflected * self.visible(start, light.to_light.into(), f32::INFINITY);
-            }
+            let way = Way { start, to_light: light.to_light.into(), distance: f32::INFINITY, pixel, weight };
+            queue.push(point, light.incident(), v, way);
         }
-        sum
+    }
+
+    /// Shades what is in the queues, and empties them.
+    fn shade(&self, row: &mut Row) {
+        for (queue, material) in row.queues.iter_mut().zip(self.materials.iter()) {
+            material.surface.shade(&queue.lit, &mut row.reflected);
+            let [r, g, b] = &row.reflected;
+            for (way, ((&r, &g), &b)) in queue.ways.iter().zip(r.iter().zip(g).zip(b)) {
+                let reflected = Rgb::new(r, g, b);
+                if !is_black(reflected) {
+                    let visible = self.visible(way.start, way.to_light, way.distance);
+                    row.sums[way.pixel] = row.sums[way.pixel] + way.weight * (reflected * visible);
+                }
+            }
+            queue.clear();
+        }
     }
 
     /// The part of the light that arrives: the product of `1 − d` over the surfaces on the way.
@@ -423,11 +499,6 @@ impl Pass<'_> {
         }
         0.0
     }
-}
-
-/// `eval_cos(l, v) E`, before shadows.
-fn reflected<B: Brdf<f32> + ?Sized>(point: &Point<'_>, lobes: &B, v: lobe::Vec3, light: Incident) -> Rgb {
-    lobes.eval_cos(point.frame.to_local(light.l), v) * light.irradiance
 }
 
 /// Exactly nothing. NaN is something.
