@@ -1,6 +1,7 @@
 //! The command line.
 
 use clap::{Args as ArgsOf, Parser, Subcommand, ValueEnum};
+use lobe_models::AnyPrecision;
 use std::path::PathBuf;
 
 /// Shading lobes: look at them, evaluate them, check them.
@@ -121,6 +122,9 @@ pub(crate) struct RenderArgs {
     /// Rays for each pixel, 1 to 4096
     #[arg(long, default_value_t = 4, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub(crate) samples: u32,
+    /// How many digits the lobes are asked for: precise, fast or coarse
+    #[arg(long, default_value_t = AnyPrecision::Precise, value_parser = parse_precision)]
+    pub(crate) precision: AnyPrecision,
     /// Stops to add to the exposure of the view (.png only)
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_stops)]
     pub(crate) exposure: f32,
@@ -151,6 +155,15 @@ Examples:
   lobe render --material dark-blue-paint --model cook-torrance -o paint.png
   lobe render model.obj --material ggx-gold -o gold.png
   lobe render --contact-sheet --model ward -o sheet.png";
+
+/// A precision by its name.
+fn parse_precision(text: &str) -> Result<AnyPrecision, String> {
+    let all = AnyPrecision::ALL;
+    all.into_iter().find(|precision| precision.name() == text).ok_or_else(|| {
+        let names = all.map(AnyPrecision::name).join(", ");
+        format!("it is one of {names}")
+    })
+}
 
 fn parse_stops(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {

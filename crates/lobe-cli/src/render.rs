@@ -56,7 +56,13 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
     if let (Some(material), Some(_)) = (material, &args.scene) {
         view.materials = std::iter::once((View::ALL.to_owned(), material)).collect();
     }
-    let settings = Settings { width: args.width, height: args.height, samples: args.samples, ..Settings::default() };
+    let settings = Settings {
+        width: args.width,
+        height: args.height,
+        samples: args.samples,
+        precision: args.precision,
+        ..Settings::default()
+    };
     let start = Instant::now();
     let renderer = Renderer::new(&scene)?;
     let image = take(&renderer, &view, &settings, &view.name, quiet)?;
@@ -72,6 +78,7 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
             "width": settings.width,
             "height": settings.height,
             "samples": settings.samples,
+            "precision": settings.precision.name(),
             "triangles": triangles,
             "seconds": seconds,
             "warnings": scene.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),

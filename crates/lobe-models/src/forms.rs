@@ -3,7 +3,9 @@
 //! A match and not a pointer, so that lanes may pass: all of a register take the same arm.
 
 use lobe::distribution::SmithLambda;
-use lobe::fresnel::{Conductor, CookFresnel, Dielectric, F82Tint, Fresnel, Gulbrandsen, Incidence, Lazanyi, SchlickF90};
+use lobe::fresnel::{
+    Conductor, CookFresnel, Dielectric, F82Tint, Fresnel, Gulbrandsen, Incidence, Lazanyi, SchlickF90,
+};
 use lobe::masking::{
     Hammon, Implicit, Kelemen, Masking, Neumann, RationalBeckmann, SchlickGgx, SmithCorrelated, SmithSeparable, VCavity,
 };

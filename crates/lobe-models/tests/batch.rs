@@ -50,7 +50,8 @@ impl Pairs {
 
     /// The first of them.
     fn slices(&self, length: usize) -> (Vec3<&[f32]>, Vec3<&[f32]>) {
-        let vector = |[x, y, z]: &'_ [Vec<f32>; 3]| -> Vec3<&[f32]> { Vec3::new(&x[..length], &y[..length], &z[..length]) };
+        let vector =
+            |[x, y, z]: &'_ [Vec<f32>; 3]| -> Vec3<&[f32]> { Vec3::new(&x[..length], &y[..length], &z[..length]) };
         (vector(&self.l), vector(&self.v))
     }
 
@@ -75,9 +76,11 @@ fn for_lobes(count: usize, check: impl Fn(&Lobe) -> Result<(), String>) {
     for model in models() {
         let strategy = lobes::lobe(model);
         let lobes = (0..count).map(|_| strategy.new_tree(&mut runner).expect("a lobe").current());
-        failures.extend(std::iter::once(model.typical()).chain(lobes).find_map(|lobe| {
-            check(&lobe).err().map(|error| format!("{lobe}: {error}"))
-        }));
+        failures.extend(
+            std::iter::once(model.typical())
+                .chain(lobes)
+                .find_map(|lobe| check(&lobe).err().map(|error| format!("{lobe}: {error}"))),
+        );
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
@@ -243,7 +246,8 @@ fn the_scalar_of_a_precision_is_near_its_lanes() {
         let scalar = lobe.build::<Approximate<f32, Fast>>();
         let found = pairs.eval_cos(&lobe.batch(), Level::baseline(), AnyPrecision::Fast, pairs.pairs.len());
         for (&(l, v), lanes) in pairs.pairs.iter().zip(found) {
-            let one: [f32; 3] = scalar.eval_cos(l.map(Approximate::new), v.map(Approximate::new)).map(Approximate::value).into();
+            let one: [f32; 3] =
+                scalar.eval_cos(l.map(Approximate::new), v.map(Approximate::new)).map(Approximate::value).into();
             for (one, lane) in one.into_iter().zip(lanes) {
                 assert!((one - lane).abs() <= 2e-3 * one.abs(), "{lobe}: {one} {lane} at {l:?} {v:?}");
             }
@@ -293,8 +297,9 @@ fn light_is_added_to_what_is_there() {
 
 #[test]
 fn other_lengths_are_an_error_and_nothing_is_written() {
-    let material = Material::from_json(r#"{"lobes": [{"model": "lambert", "albedo": 1}, {"model": "phong", "ks": 1, "q": 2}]}"#)
-        .expect("a material");
+    let material =
+        Material::from_json(r#"{"lobes": [{"model": "lambert", "albedo": 1}, {"model": "phong", "ks": 1, "q": 2}]}"#)
+            .expect("a material");
     let (long, short) = (vec![0.6_f32; 300], vec![0.6_f32; 299]);
     let full = Vec3::new(&long[..], &long, &long);
     for batch in [material.batch(), material.lobes[0].batch()] {

@@ -1,8 +1,10 @@
 //! Points that wait to be shaded, and how a surface shades them all at once.
 
 use crate::material::Surface;
-use lobe::batch::{Batch, LengthError, Shade};
+use lobe::batch::{AtEveryLevel, Batch, Columns, LengthError, Shade};
+use lobe::number::{Coarse, Fast, Precise};
 use lobe::{Brdf, Rgb, Vec3};
+use lobe_models::AnyPrecision;
 
 /// Lights at points, as a structure of arrays: the directions `l` and `v` in the local frame, and the irradiance `E`.
 #[derive(Debug, Clone, Default)]
@@ -52,7 +54,7 @@ impl LitPoints {
 
 impl Surface {
     /// `eval_cos(l, v) E` of each point, into vectors of as many numbers.
-    pub(crate) fn shade(&self, points: &LitPoints, out: &mut [Vec<f32>; 3]) {
+    pub(crate) fn shade(&self, points: &LitPoints, precision: AnyPrecision, out: &mut [Vec<f32>; 3]) {
         for channel in &mut *out {
             channel.clear();
             channel.resize(points.len(), 0.0);
@@ -62,24 +64,41 @@ impl Surface {
         if points.len() == 0 {
             return;
         }
-        let batch = Batch::new();
-        let inputs = (points.v(), (points.l(), points.irradiance()));
-        let result: Result<(), LengthError> = match self {
+        let (l, v, irradiance) = (points.l(), points.v(), points.irradiance());
+        let inputs = (v, (l, irradiance));
+        let result = match self {
             Self::Black => Ok(()),
-            Self::Diffuse(lobes) => batch.run(&Shade(lobes), inputs, out),
-            Self::BlinnTorrance(lobes) => batch.run(&Shade(lobes), inputs, out),
-            Self::Phong(lobes) => batch.run(&Shade(lobes), inputs, out),
-            Self::NormalizedPhong(lobes) => batch.run(&Shade(lobes), inputs, out),
-            Self::NormalizedBlinnPhong(lobes) => batch.run(&Shade(lobes), inputs, out),
-            Self::Lobes(lobes) => {
-                points.each(lobes.brdf(), out);
-                Ok(())
-            }
+            Self::Diffuse(lobes) => run(precision, &Shade(lobes), inputs, out),
+            Self::BlinnTorrance(lobes) => run(precision, &Shade(lobes), inputs, out),
+            Self::Phong(lobes) => run(precision, &Shade(lobes), inputs, out),
+            Self::NormalizedPhong(lobes) => run(precision, &Shade(lobes), inputs, out),
+            Self::NormalizedBlinnPhong(lobes) => run(precision, &Shade(lobes), inputs, out),
+            Self::Lobes(lobes) => lobes.batch().shade(Batch::new().level(), precision, l, v, irradiance, out),
             Self::Other(lobes) => {
                 points.each(&**lobes, out);
                 Ok(())
             }
         };
         debug_assert!(result.is_ok(), "all columns grow together");
+    }
+}
+
+/// A kernel, to a precision that is known at run time.
+fn run<'a, K, C: Columns>(
+    precision: AnyPrecision,
+    kernel: &K,
+    inputs: C,
+    out: Rgb<&'a mut [f32]>,
+) -> Result<(), LengthError>
+where
+    K: AtEveryLevel<Precise, C, Rgb<&'a mut [f32]>>
+        + AtEveryLevel<Fast, C, Rgb<&'a mut [f32]>>
+        + AtEveryLevel<Coarse, C, Rgb<&'a mut [f32]>>,
+{
+    let batch = Batch::new();
+    match precision {
+        AnyPrecision::Precise => batch.run(kernel, inputs, out),
+        AnyPrecision::Fast => batch.precision::<Fast>().run(kernel, inputs, out),
+        AnyPrecision::Coarse => batch.precision::<Coarse>().run(kernel, inputs, out),
     }
 }

@@ -87,18 +87,18 @@ pub enum Surface {
 
 /// Lobes of the catalogue, ready to be evaluated.
 ///
-/// The model of each is chosen through a pointer at every light: two to three times the time of a [`Surface`] whose
-/// type is known, and any model can be named in a file.
+/// The model of each is chosen through a pointer, once for a batch of points, and any model can be named in a file.
 pub struct NamedLobes {
     material: lobe_models::Material,
     brdf: lobe_models::AnyBrdf<f32>,
+    batch: lobe_models::AnyBatch,
 }
 
 impl NamedLobes {
     /// Builds the lobes.
     #[must_use]
     pub fn new(material: lobe_models::Material) -> Self {
-        Self { brdf: material.build(), material }
+        Self { brdf: material.build(), batch: material.batch(), material }
     }
 
     /// What they were built from.
@@ -107,8 +107,16 @@ impl NamedLobes {
         &self.material
     }
 
-    pub(crate) fn brdf(&self) -> &dyn Brdf<f32> {
+    /// The lobes, for one pair of directions at a time.
+    #[must_use]
+    pub fn brdf(&self) -> &dyn Brdf<f32> {
         &*self.brdf
+    }
+
+    /// The lobes over slices, as pictures are shaded.
+    #[must_use]
+    pub fn batch(&self) -> &dyn lobe_models::BatchBrdf {
+        &*self.batch
     }
 }
 

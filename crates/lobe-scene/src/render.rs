@@ -14,6 +14,7 @@ use crate::mesh::area_vector;
 use crate::scene::{Background, Light, Scene, View};
 use glam::Vec3;
 use lobe::{AmbientLight, DirectionalLight, Frame, Incident, PointLight, Rgb, interpolate_normal};
+use lobe_models::AnyPrecision;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -32,11 +33,13 @@ pub struct Settings {
     pub samples: u32,
     /// How many mirrors and dissolved surfaces in a row are followed, 0 … 32.
     pub depth: u32,
+    /// How many digits the lobes are asked for.
+    pub precision: AnyPrecision,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { width: 1280, height: 720, samples: 1, depth: 8 }
+        Self { width: 1280, height: 720, samples: 1, depth: 8, precision: AnyPrecision::Precise }
     }
 }
 
@@ -146,7 +149,8 @@ impl<'a> Renderer<'a> {
         let rays = camera.rays(settings.width, settings.height)?;
         let lights = Lights::new(&view.lights_for(&camera))?;
         let materials = view.materials_of(&self.scene.materials);
-        let pass = Pass { renderer: self, materials, lights, background: view.background };
+        let pass =
+            Pass { renderer: self, materials, lights, background: view.background, precision: settings.precision };
         let samples = sample_points(settings.samples);
         let weight = 1.0 / settings.samples as f32;
         let rows_done = AtomicU64::new(0);
@@ -235,6 +239,7 @@ struct Pass<'a> {
     materials: Cow<'a, [Material]>,
     lights: Lights,
     background: Background,
+    precision: AnyPrecision,
 }
 
 /// A point that is being shaded, seen from the unit direction `v`.
@@ -462,7 +467,7 @@ impl Pass<'_> {
     /// Shades what is in the queues, and empties them.
     fn shade(&self, row: &mut Row) {
         for (queue, material) in row.queues.iter_mut().zip(self.materials.iter()) {
-            material.surface.shade(&queue.lit, &mut row.reflected);
+            material.surface.shade(&queue.lit, self.precision, &mut row.reflected);
             let [r, g, b] = &row.reflected;
             for (way, ((&r, &g), &b)) in queue.ways.iter().zip(r.iter().zip(g).zip(b)) {
                 let reflected = Rgb::new(r, g, b);

@@ -52,7 +52,7 @@ fn sections(input: &[u8]) -> (&[u8], impl FnMut(&str) -> io::Result<Vec<u8>>) {
 /// Takes a small picture of every view.
 fn draw(scene: &Scene) -> Result<(), Error> {
     let renderer = Renderer::new(scene)?;
-    let settings = Settings { width: 8, height: 8, samples: 2, depth: 4 };
+    let settings = Settings { width: 8, height: 8, samples: 2, depth: 4, ..Settings::default() };
     for view in &scene.views {
         let image = renderer.render(view, &settings, None)?;
         image.to_png(&Display { exposure: view.exposure, ..Display::default() })?;

@@ -45,7 +45,11 @@ fn small() -> Settings {
 
 /// The middle of a picture whose middle is not on an edge of a pixel.
 fn middle(scene: &Scene, view: &View, depth: u32) -> Result<f32, Error> {
-    let image = Renderer::new(scene)?.render(view, &Settings { width: 33, height: 33, samples: 1, depth }, None)?;
+    let image = Renderer::new(scene)?.render(
+        view,
+        &Settings { width: 33, height: 33, samples: 1, depth, ..Settings::default() },
+        None,
+    )?;
     Ok(image.pixel(16, 16).map_or(f32::NAN, |pixel| pixel[0]))
 }
 
@@ -257,7 +261,7 @@ fn the_picture_does_not_depend_on_the_number_of_threads() -> Result<(), Box<dyn 
             *radius = 0.5;
         }
     }
-    let settings = Settings { width: 160, height: 90, samples: 3, depth: 4 };
+    let settings = Settings { width: 160, height: 90, samples: 3, depth: 4, ..Settings::default() };
     let mut pictures = Vec::new();
     for threads in [1, 2, 5] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;

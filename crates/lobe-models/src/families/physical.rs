@@ -123,7 +123,7 @@ constructor!(facets: torrance_sparrow |p, finish, table| {
     finish(terms)
 });
 
-constructor!(cook_torrance |p, finish| finish(cook_torrance_lobe(p)));
+constructor!(cook_torrance | p, finish | finish(cook_torrance_lobe(p)));
 
 fn cook_torrance_terms(p: &Reader<'_, f64>) -> AnyTerms {
     Box::new(cook_torrance_lobe(p).modern())
@@ -133,7 +133,7 @@ fn cook_torrance_lobe<R: Number>(p: &Reader<'_, R>) -> CookTorrance<Schlick<R>, 
     CookTorrance::new(p.rgb("ks"), Alpha(p.number("m")), Schlick::new(p.rgb("f0")))
 }
 
-constructor!(blinn |p, finish| finish(blinn_lobe(p)));
+constructor!(blinn | p, finish | finish(blinn_lobe(p)));
 
 fn blinn_terms(p: &Reader<'_, f64>) -> AnyTerms {
     Box::new(blinn_lobe(p).modern())
