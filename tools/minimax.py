@@ -131,7 +131,7 @@ print(f"    2/(3 ln 2) = {mp.nstr(hi, 20)} + {mp.nstr(f32(cp - hi), 12)}")
 
 # --- `approximate.rs`: the same functions to 13 and to 10 digits ------------------------------------------------------
 
-for precision, exp2, log2, atan, erfc in [("Fast", 4, 5, 3, 6), ("Coarse", 3, 4, 2, 4)]:
+for precision, exp2, log2, atan, erfc in [("Fast", 4, 5, 3, 6), ("Coarse", 3, 4, 2, 5)]:
     fit(
         f"{precision} exp2: 2^r = P(r)",
         lambda r: mp.mpf(2) ** r,
@@ -169,21 +169,23 @@ def number(i):
     return struct.unpack("f", struct.pack("I", i & 0xFFFFFFFF))[0]
 
 
-# A first guess from the bits, and a polynomial P of how far off it is: y P(r) with r = x y for 1/x, r = x y^2 for
-# 1/sqrt(x). The start is the one whose r has the smallest ratio of its ends.
-def guess(name, start, starts, power, degrees):
-    def ends(magic):
-        sample = [number(bits(1.0) + (i << 12)) for i in range(1 << 12)]
-        r = [mp.mpf(x) * mp.mpf(start(magic, bits(x))) ** power for x in sample]
-        return min(r), max(r)
+# A first guess y of 1/sqrt(x) from the bits, and a polynomial P of r = x y^2 that mends it, y P(r) = 1/sqrt(x). The start
+# is the one whose r has the smallest ratio of its ends. A step of 2^23 doubles every guess, which changes no ratio: one
+# octave of starts holds them all.
+def ends(magic):
+    # Two octaves: the exponent is halved.
+    sample = [number(bits(1.0) + (i << 12)) for i in range(1 << 12)]
+    r = [x * number(magic - (bits(x) >> 1)) ** 2 for x in sample]
+    return min(r), max(r)
 
-    magic = min(starts, key=lambda m: (lambda lo_hi: lo_hi[1] / lo_hi[0])(ends(m)))
+
+def ratio(magic):
     lo, hi = ends(magic)
-    print(f"{name}: magic {magic:#x}, r from {mp.nstr(lo, 6)} to {mp.nstr(hi, 6)}")
-    for degree in degrees:
-        root = mp.mpf(1) / power
-        fit(f"{name}: degree {degree}", lambda r: r**-root, powers(0, degree + 1), lambda r: r**root, lo, hi, one_by_one=False)
+    return hi / lo
 
 
-guess("recip", lambda m, i: number(m - i), range(0x7EF00000, 0x7F000000, 0x8000), 1, [1, 2])
-guess("rsqrt", lambda m, i: number(m - (i >> 1)), range(0x5F300000, 0x5F400000, 0x8000), 2, [1, 2])
+magic = min(range(0x5F000000, 0x5F800000, 0x8000), key=ratio)
+lo, hi = ends(magic)
+print(f"rsqrt: magic {magic:#x}, r from {lo:.6} to {hi:.6}")
+for degree in [1, 2]:
+    fit(f"rsqrt: degree {degree}", lambda r: r ** mp.mpf(-0.5), powers(0, degree + 1), lambda r: r ** mp.mpf(0.5), lo, hi, one_by_one=False)

@@ -332,13 +332,30 @@ pub(crate) struct SweepArgs {
     /// Try only every N-th bit pattern
     #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) stride: u32,
+    /// What is swept: f32 itself, or the numbers that trade digits for speed, as scalars and at every SIMD level
+    #[arg(long, value_enum, default_value_t = SweptPrecision::Precise)]
+    pub(crate) precision: SweptPrecision,
+    /// Print the tables of docs/numerics.md
+    #[arg(long)]
+    pub(crate) markdown: bool,
+}
+
+/// Which precisions a sweep tries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum SweptPrecision {
+    Precise,
+    Fast,
+    Coarse,
+    All,
 }
 
 const SWEEP_HELP: &str = "\
 All 2^32 arguments of all functions take some minutes on a few cores. Exit code 1 if a bound is broken.
+Errors are in ulps for the precision precise, and relative to the exact value for fast and coarse.
 
 Examples:
   lobe sweep log2
+  lobe sweep --precision fast --stride 64
   lobe sweep --stride 1009 --json";
 
 /// `lobe verify`.

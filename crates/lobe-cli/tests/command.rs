@@ -278,6 +278,11 @@ fn sweep_says_whether_the_bounds_hold() {
     let found: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
     assert_eq!(found[0]["function"], "recip");
     assert_eq!(found[0]["holds"], true);
+    let run = lobe(&["sweep", "rsqrt", "--precision", "coarse", "--stride", "1000003", "--json"], "");
+    assert_eq!(run.code, Some(0));
+    let found: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
+    assert_eq!((&found[0]["precision"], &found[0]["level"]), (&"coarse".into(), &"scalar".into()));
+    assert_eq!(found[0]["allowed_relative"], 6.6e-4);
     let run = lobe(&["sweep", "tan"], "");
     let names: Vec<_> = lobe_verify::sweep::FUNCTIONS.iter().map(|function| function.name).collect();
     fails(&run, 2, &format!("unknown function `tan`; the functions are {}", names.join(", ")));

@@ -9,6 +9,7 @@
 pub mod comparison;
 pub mod extremes;
 pub mod mediump;
+pub mod rough;
 pub mod strategies;
 pub mod sweep;
 pub mod terms;

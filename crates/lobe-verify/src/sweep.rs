@@ -55,7 +55,7 @@ pub const FUNCTIONS: &[Function] = &[
 ];
 
 /// The domain of `sin_cos` ends at 512.
-fn in_turns(x: f64, f: fn(f64) -> f64) -> f64 {
+pub(crate) fn in_turns(x: f64, f: fn(f64) -> f64) -> f64 {
     if x.abs() <= 512.0 { f(x) } else { f64::NAN }
 }
 
@@ -107,6 +107,11 @@ pub fn sweep(function: &Function, stride: u32, progress: &(dyn Fn(u64) + Sync)) 
 /// The worst error over the neighbourhoods of every value at which something changes: zeros, ends of ranges, powers of
 /// two, halves and multiples of π/4.
 pub fn sweep_boundaries(function: &Function) -> Worst {
+    boundaries().map(|bits| try_one(function, bits)).fold(Worst::NOTHING, Worst::or)
+}
+
+/// Those neighbourhoods, as bits.
+pub(crate) fn boundaries() -> impl Iterator<Item = u32> {
     let powers = (-149..=127).map(|e| libm::ldexp(1.0, e) as f32);
     let steps = (0..=512).map(|i| i as f32 * 0.5);
     let turns = (1..=700).map(|k| (f64::from(k) * std::f64::consts::FRAC_PI_4) as f32);
@@ -117,8 +122,6 @@ pub fn sweep_boundaries(function: &Function) -> Worst {
         .chain(special)
         .flat_map(|x| (-64i32..=64).map(move |d| x.to_bits().wrapping_add_signed(d)))
         .flat_map(|bits| [bits, bits ^ (1 << 31)])
-        .map(|bits| try_one(function, bits))
-        .fold(Worst::NOTHING, Worst::or)
 }
 
 fn try_one(function: &Function, bits: u32) -> Worst {

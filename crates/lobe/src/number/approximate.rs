@@ -12,16 +12,24 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 ///
 /// | function | `Fast` | `Coarse` |
 /// |---|---|---|
-/// | `1/x`, `1/√x`, `√x` with SSE and AVX2 | 3.7e-4 | as `Fast` |
-/// | `1/x`, `1/√x`, `√x` with AVX-512 | 6.2e-5 | as `Fast` |
-/// | `1/√x` of scalars, and of lanes of `wasm` | 2.0e-5 | 7.5e-4 |
-/// | `exp2`, `log2`, `log2_1p`, `sin`, `cos`, `atan2`, `erfc` | 2e-4 | 2e-3 |
+/// | `1/x`, `1/√x`, `√x` with SSE and AVX2 | 3.7e-4 | 3.7e-4 |
+/// | `1/x`, `1/√x`, `√x` with AVX-512 | 6.2e-5 | 6.2e-5 |
+/// | `1/√x` of scalars, and of lanes of `wasm` | 1.7e-5 | 6.6e-4 |
+/// | `exp2` | 1.5e-4 | 1.8e-3 |
+/// | `log2`, `log2_1p` | 1.6e-4 | 9.3e-4 |
+/// | `sin`, `cos` | 1.3e-5 | 4.2e-4 |
+/// | `atan2` | 3.9e-4 | 1.1e-3 |
+/// | `erfc` | 8e-4 | 2.6e-3 |
 ///
-/// These are relative errors; the measured ones are in `docs/numerics.md`. The bits may differ from one machine to the
-/// next, as its estimates do.
+/// These are relative errors, of `sin` and `cos` relative to 1e-3 where they are smaller; the measured ones are in
+/// `docs/numerics.md`. `1/x` and `√x` of scalars are exact. The bits may differ from one machine to the next, as its
+/// estimates do.
 ///
-/// Results below the smallest normal number may become 0, as in [`Real::exp2`]. Where `f32` gives an infinity, the
-/// result may be a large number instead, and a root of a number below the smallest normal one may be 0.
+/// A finite argument within the domain never gives NaN, and no infinity where `f32` gives none, except that `1/x` and
+/// `1/√x` may be infinite below the smallest normal number, 2⁻¹²⁶. Results below that number may become 0, as in
+/// [`Real::exp2`], and `1/x` from 2¹²⁵ on. Where `f32` gives an infinity, the result may be a large number instead, as
+/// that of `exp2` from 127.5 on is; a root of a number below 2⁻¹²⁶ may be smaller than it should be, `log2` takes
+/// 2⁻¹²⁶ in its place, and roots of negative numbers and of infinities may be anything.
 ///
 /// ```
 /// use lobe::{Real, number::{Approximate, Fast}};
@@ -335,8 +343,9 @@ polynomials! {
     fn cosine(0.99998819828, -0.499685496092, 0.040362291038);
 }
 
-/// The bits of a number near `1/√x`, for positive normal `x`.
-pub(super) const RSQRT_START: u32 = 0x5f30_0000;
+/// The bits from which those of `x` take half, for a number near `0.9/√x`: of all starts, the one whose guesses differ
+/// least, so that the polynomial has the least to mend (`tools/minimax.py`).
+pub(super) const RSQRT_START: u32 = 0x5f20_0000;
 
 /// `y P(x y²)`, for a first guess `y` of `1/√x`.
 #[inline(always)]
@@ -390,8 +399,8 @@ impl Rough for Fast {
         fn atan(0.999981999397, -0.331390678883, 0.168229267001);
         /// 2.5e-5.
         fn erfc(1.07401132584, -0.883166968822, 0.589925229549, -0.313214629889, 0.12068425864, -0.0190720353276);
-        /// 2.0e-5.
-        fn rsqrt(1.94250369072, -1.38889443874, 0.446436613798);
+        /// 1.6e-5.
+        fn rsqrt(2.10235500336, -1.76092863083, 0.663153171539);
     }
 }
 
@@ -405,9 +414,9 @@ impl Rough for Coarse {
         fn sin(0.999591588974, -0.161535084248);
         /// 6.4e-4.
         fn atan(0.99936401844, -0.302539139986);
-        /// 4.0e-3.
-        fn erfc(1.07106173038, -0.862150251865, 0.632519841194, -0.422292172909);
-        /// 7.4e-4.
-        fn rsqrt(1.55403459072, -0.555180251598);
+        /// 2.1e-4.
+        fn erfc(1.07418084145, -0.882398784161, 0.584629356861, -0.319864779711, 0.13828741014);
+        /// 6.5e-4.
+        fn rsqrt(1.6819139719, -0.703952074051);
     }
 }

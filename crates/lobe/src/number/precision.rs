@@ -81,7 +81,7 @@ pub trait Estimate: Binary32 {
     fn sqrt_of_normal_estimate(self) -> Self {
         self.sqrt()
     }
-    /// A number near `1/√self`, within 4 %, for positive normal numbers: half of the bits of `self` taken from
+    /// `0.892/√self` within 3 %, for positive normal numbers if `start` is right: half of the bits of `self` taken from
     /// `start`.
     fn rsqrt_guess(self, start: u32) -> Self;
     /// `1/√self` for positive normal numbers.
