@@ -52,6 +52,7 @@
 extern crate std;
 
 #[cfg(feature = "simd")]
+#[allow(clippy::incompatible_msrv, reason = "the feature needs Rust 1.89, as its document says")]
 pub mod batch;
 pub mod brdf;
 mod carry;

@@ -18,6 +18,7 @@ mod precision;
 mod quotient;
 mod single;
 #[cfg(feature = "simd")]
+#[allow(clippy::incompatible_msrv, reason = "the feature needs Rust 1.89, as its document says")]
 mod wide;
 
 pub use approximate::{Approximate, Coarse, Fast};
