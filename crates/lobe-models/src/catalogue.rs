@@ -1,5 +1,7 @@
 //! The list of all models, and a lobe of one of them.
 
+#[cfg(feature = "batch")]
+use crate::batch::AnyBatch;
 use crate::families;
 use crate::number::{AnyBrdf, Number};
 use crate::parameter::{Error, Parameter, Value};
@@ -53,6 +55,8 @@ pub(crate) struct Constructors {
     pub(crate) f32: fn(&Reader<'_, f32>) -> AnyBrdf<f32>,
     pub(crate) f64: fn(&Reader<'_, f64>) -> AnyBrdf<f64>,
     pub(crate) half: fn(&Reader<'_, Half>) -> AnyBrdf<Half>,
+    #[cfg(feature = "batch")]
+    pub(crate) batch: fn(&Reader<'_, f32>) -> AnyBatch,
     /// Of the models that are made of `D`, `G` and `F`.
     pub(crate) terms: Option<fn(&Reader<'_, f64>) -> AnyTerms>,
 }
@@ -67,6 +71,14 @@ impl Model {
             .iter()
             .find(|parameter| parameter.name == name)
             .ok_or_else(|| Error(format!("model `{}` has no parameter `{name}`; {}", self.name, self.takes())))
+    }
+
+    /// A lobe of ordinary values, for an example or a measurement: the default where there is one, and else what a glossy
+    /// surface has, such as a width of 0.3.
+    #[must_use]
+    pub fn typical(&'static self) -> Lobe {
+        let values = self.parameters.iter().map(|parameter| parameter.default.unwrap_or_else(|| parameter.typical()));
+        Lobe { model: self, values: values.collect(), weight: [1.0; 3] }
     }
 
     /// Whether it is made of `D`, `G` and `F`, so that [`Lobe::terms`] has them.
@@ -187,12 +199,34 @@ impl Lobe {
     /// The lobe in a number type.
     #[must_use]
     pub fn build<R: Number>(&self) -> AnyBrdf<R> {
-        let lobe = R::constructor(self.model)(&Reader::new(self.model.parameters, &self.values));
+        let lobe = R::construct(self.model, &Reader::new(self.model.parameters, &self.values));
         if self.weight == [1.0; 3] {
             return lobe;
         }
         let [r, g, b] = self.weight.map(R::from_f64);
         Box::new(Weighted { lobe, weight: Rgb::new(r, g, b) })
+    }
+
+    /// The lobe over slices.
+    ///
+    /// Every model runs in lanes, those of layers too, but for those whose `Λ` is a table, which go point by point as the
+    /// scalar `f32`, whatever the precision: `tabulated-facets`, `ashikhmin-premoze-shirley` with `blinn` or `gtr`, and
+    /// `microfacet` with another distribution than GGX or Beckmann.
+    ///
+    /// A `microfacet` lobe of GGX or Beckmann with Smith's masking and Schlick's, a conductor's or a dielectric's Fresnel
+    /// term has kernels of its own; any other looks up its masking and its Fresnel term for each register.
+    #[cfg(feature = "batch")]
+    #[must_use]
+    pub fn batch(&self) -> AnyBatch {
+        let (lobe, weight) = self.weighted_batch();
+        if self.weight == [1.0; 3] { lobe } else { crate::batch::sum(vec![(lobe, weight)]) }
+    }
+
+    /// The lobe without its weight, and that.
+    #[cfg(feature = "batch")]
+    pub(crate) fn weighted_batch(&self) -> (AnyBatch, [f32; 3]) {
+        let lobe = (self.model.build.batch)(&Reader::new(self.model.parameters, &self.values));
+        (lobe, self.weight.map(|w| w as f32))
     }
 
     /// The terms `D`, `G` and `F` that the lobe is made of, without its weight; `None` for a model that is not made so.
@@ -210,6 +244,12 @@ impl Lobe {
             Bound::Derived { at, .. } => at(&Reader::new(self.model.parameters, &self.values), l, v),
         }
     }
+}
+
+/// A lobe times a colour.
+#[cfg(feature = "batch")]
+pub(crate) fn weighted<R: Number>(lobe: AnyBrdf<R>, weight: Rgb<R>) -> AnyBrdf<R> {
+    Box::new(Weighted { lobe, weight })
 }
 
 /// A lobe times a colour.

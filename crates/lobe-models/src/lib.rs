@@ -27,11 +27,17 @@
 //! # Ok::<(), lobe_models::JsonError>(())
 //! ```
 //!
+//! With the feature `batch` a lobe or a material also runs over slices, at the SIMD level and to the precision that are
+//! picked at run time: [`Lobe::batch`], [`Material::batch`]. It needs Rust 1.89.
+//!
 //! A model is added in one place, its file under `families/`: the command reads it, the property suite and the sweep
 //! of the extremes run over it.
 
+#[cfg(feature = "batch")]
+mod batch;
 mod catalogue;
 mod families;
+mod forms;
 mod json;
 mod material;
 mod names;
@@ -42,6 +48,8 @@ mod presets;
 mod reader;
 mod terms;
 
+#[cfg(feature = "batch")]
+pub use batch::{AnyBatch, AnyPrecision, BatchBrdf};
 pub use catalogue::{Bound, Lobe, Model, model, models};
 pub use json::{JsonError, MAX_LOBES};
 pub use material::Material;

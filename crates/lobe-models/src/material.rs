@@ -54,6 +54,22 @@ impl Material {
     pub fn build<R: Number>(&self) -> AnyBrdf<R> {
         Box::new(Composite { lobes: self.lobes.iter().map(Lobe::build).collect() })
     }
+
+    /// The BRDF over slices: lobe after lobe, each added to what is there.
+    #[cfg(feature = "batch")]
+    #[must_use]
+    pub fn batch(&self) -> crate::batch::AnyBatch {
+        match self.lobes.as_slice() {
+            [one] => one.batch(),
+            all => crate::batch::sum(all.iter().map(Lobe::weighted_batch).collect()),
+        }
+    }
+}
+
+/// The sum of these lobes.
+#[cfg(feature = "batch")]
+pub(crate) fn sum<R: Number>(lobes: impl Iterator<Item = AnyBrdf<R>>) -> AnyBrdf<R> {
+    Box::new(Composite { lobes: lobes.collect() })
 }
 
 /// A sum of lobes put together at run time. Each costs a call through a pointer; who knows the lobes beforehand writes

@@ -13,16 +13,16 @@ pub type AnyBrdf<R> = Box<dyn Brdf<R> + Send + Sync>;
 pub trait Number: Real + Send + Sync + 'static {
     /// The constant.
     fn from_f64(value: f64) -> Self;
-    /// The model's constructor in this type.
-    fn constructor(model: &Model) -> fn(&Reader<'_, Self>) -> AnyBrdf<Self>;
+    /// The model in this type, with the parameters of the reader.
+    fn construct(model: &Model, reader: &Reader<'_, Self>) -> AnyBrdf<Self>;
 }
 
 impl Number for f32 {
     fn from_f64(value: f64) -> Self {
         value as f32
     }
-    fn constructor(model: &Model) -> fn(&Reader<'_, Self>) -> AnyBrdf<Self> {
-        model.build.f32
+    fn construct(model: &Model, reader: &Reader<'_, Self>) -> AnyBrdf<Self> {
+        (model.build.f32)(reader)
     }
 }
 
@@ -30,8 +30,8 @@ impl Number for f64 {
     fn from_f64(value: f64) -> Self {
         value
     }
-    fn constructor(model: &Model) -> fn(&Reader<'_, Self>) -> AnyBrdf<Self> {
-        model.build.f64
+    fn construct(model: &Model, reader: &Reader<'_, Self>) -> AnyBrdf<Self> {
+        (model.build.f64)(reader)
     }
 }
 
@@ -39,7 +39,12 @@ impl Number for Half {
     fn from_f64(value: f64) -> Self {
         Self::from(value)
     }
-    fn constructor(model: &Model) -> fn(&Reader<'_, Self>) -> AnyBrdf<Self> {
-        model.build.half
+    fn construct(model: &Model, reader: &Reader<'_, Self>) -> AnyBrdf<Self> {
+        (model.build.half)(reader)
     }
+}
+
+/// What a constructor ends with.
+pub(crate) fn boxed<R: Number>(lobe: impl Brdf<R> + Send + Sync + 'static) -> AnyBrdf<R> {
+    Box::new(lobe)
 }

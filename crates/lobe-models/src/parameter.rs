@@ -135,6 +135,36 @@ impl Parameter {
         matches!(self.kind, Kind::Colour { .. }) && matches!(self.name, "albedo" | "kd" | "ks" | "weight")
     }
 
+    /// An ordinary value, by the name and the domain.
+    pub(crate) fn typical(&self) -> Value {
+        match self.kind {
+            // A warm colour, so that no channel is like another.
+            Kind::Colour { max } => Value::Colour([0.8, 0.5, 0.2].map(|x| x * max.min(1.0))),
+            Kind::Widths => Value::Widths([0.3; 2]),
+            // A Gaussian of 17°.
+            Kind::Table => Value::Table(std::array::from_fn(|i| (-0.09 * (i * i) as f64).exp())),
+            Kind::Choice(words) => Value::Choice(words.first().copied().unwrap_or_default()),
+            Kind::Number { min, max } => {
+                let value: f64 = match self.name {
+                    "q" | "nv" => 50.0,
+                    "nu" => 200.0,
+                    "cxy" | "cx" => -0.95,
+                    "cy" => -0.85,
+                    "cz" => 0.9,
+                    "ior" => 1.5,
+                    "k" => 0.8,
+                    "tau" => 5.0,
+                    // Those of Löw et al.: the lobe is 1/√B wide.
+                    "b" => 1000.0,
+                    "c" if max > 1.0 => 1.2,
+                    "roughness" => 0.5,
+                    _ => 0.3,
+                };
+                Value::Number(value.clamp(min, max))
+            }
+        }
+    }
+
     /// [`check`](Self::check), but a weight may be above 1.
     ///
     /// # Errors

@@ -21,6 +21,12 @@ impl<'a, R: Number> Reader<'a, R> {
         Self { parameters, values, number: PhantomData }
     }
 
+    /// The same values in another number type.
+    #[cfg(feature = "batch")]
+    pub(crate) fn of<S: Number>(&self) -> Reader<'a, S> {
+        Reader { parameters: self.parameters, values: self.values, number: PhantomData }
+    }
+
     fn value(&self, name: &str) -> Option<Value> {
         let found = self.parameters.iter().zip(self.values).find(|(parameter, _)| parameter.name == name);
         debug_assert!(found.is_some(), "the model declares no parameter `{name}`");

@@ -62,3 +62,8 @@ where
         self
     }
 }
+
+/// What the constructor of a lobe with terms ends with.
+pub(crate) fn boxed<R: Number>(lobe: impl Terms<R> + 'static) -> Box<dyn Terms<R>> {
+    Box::new(lobe)
+}

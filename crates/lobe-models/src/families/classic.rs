@@ -1,7 +1,7 @@
 //! Lambert, Phong, Blinn-Phong, and the lecture's highlights.
 
-use super::{constructors, model};
-use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader};
+use super::{constructor, constructors, model};
+use crate::{Bound, Model, Parameter, Reader};
 use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
 use lobe::{BlinnPhong, CommonNormalization, Lambert, NormalIncidence, Phong, Vec3};
 
@@ -63,13 +63,13 @@ pub(super) const MODELS: &[Model] = &[
     },
 ];
 
-fn blinn_phong<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
+constructor! { blinn_phong |p, finish| {
     let (ks, q) = (p.rgb("ks"), p.shininess());
     match p.choice("normalization") {
-        "common" => Box::new(BlinnPhong::<R, CommonNormalization>::with_normalization(ks, q)),
-        _ => Box::new(BlinnPhong::<R, NormalIncidence>::with_normalization(ks, q)),
+        "common" => finish(BlinnPhong::<R, CommonNormalization>::with_normalization(ks, q)),
+        _ => finish(BlinnPhong::<R, NormalIncidence>::with_normalization(ks, q)),
     }
-}
+} }
 
 /// The unit roundoff of `f32`.
 const U: f64 = 1.0 / 16_777_216.0;

@@ -1,5 +1,6 @@
 //! The forms of `F`, for every model that has one.
 
+use crate::forms::AnyFresnel;
 use crate::{Number, Parameter, Reader, Value};
 use lobe::fresnel::{
     Conductor, CookFresnel, Dielectric, F82Tint, Fresnel, Gulbrandsen, Incidence, Lazanyi, Schlick, metals,
@@ -77,26 +78,17 @@ const METALS: &[&str] = &[
     "tungsten",
 ];
 
-/// A form of `F` chosen at run time.
-pub(super) struct AnyFresnel<R>(Box<dyn Fresnel<R> + Send + Sync>);
-
-impl<R: Number> Fresnel<R> for AnyFresnel<R> {
-    fn fresnel(&self, incidence: Incidence<R>) -> Rgb<R> {
-        self.0.fresnel(incidence)
-    }
-}
-
 /// The form that the parameters name.
 pub(super) fn any_fresnel<R: Number>(p: &Reader<'_, R>) -> AnyFresnel<R> {
-    AnyFresnel(match p.choice(FORM.name) {
-        "dielectric" => Box::new(Dielectric::new(Ior(p.number(IOR.name)))),
-        "conductor" => Box::new(conductor(p)),
-        "cook" => Box::new(CookFresnel::new(p.rgb(F0.name))),
-        "f82-tint" => Box::new(F82Tint::new(p.rgb(F0.name), p.rgb(TINT.name))),
-        "gulbrandsen" => Box::new(Gulbrandsen::new(p.rgb(REFLECTIVITY.name), p.rgb(EDGE_TINT.name))),
-        "lazanyi" => Box::new(Lazanyi::new(p.rgb(F0.name), p.rgb(A.name), p.number(EXPONENT.name))),
-        _ => Box::new(Schlick::with_f90(p.rgb(F0.name), p.rgb(F90.name))),
-    })
+    match p.choice(FORM.name) {
+        "dielectric" => AnyFresnel::Dielectric(Dielectric::new(Ior(p.number(IOR.name)))),
+        "conductor" => AnyFresnel::Conductor(conductor(p)),
+        "cook" => AnyFresnel::Cook(CookFresnel::new(p.rgb(F0.name))),
+        "f82-tint" => AnyFresnel::F82Tint(F82Tint::new(p.rgb(F0.name), p.rgb(TINT.name))),
+        "gulbrandsen" => AnyFresnel::Gulbrandsen(Gulbrandsen::new(p.rgb(REFLECTIVITY.name), p.rgb(EDGE_TINT.name))),
+        "lazanyi" => AnyFresnel::Lazanyi(Lazanyi::new(p.rgb(F0.name), p.rgb(A.name), p.number(EXPONENT.name))),
+        _ => AnyFresnel::Schlick(Schlick::with_f90(p.rgb(F0.name), p.rgb(F90.name))),
+    }
 }
 
 fn conductor<R: Number>(p: &Reader<'_, R>) -> Conductor<R> {

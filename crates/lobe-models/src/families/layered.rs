@@ -1,11 +1,11 @@
 //! glTF 2.0 with its extensions, and coats.
 
-use super::constructors;
-use crate::{AnyBrdf, Bound, Model, Number, Parameter, Reader, Value};
-use lobe::distribution::Ggx;
+use super::{constructor, constructors};
+use crate::{Bound, Model, Number, Parameter, Reader, Value};
+use lobe::distribution::{Ggx, GgxAnisotropic};
 use lobe::fresnel::Schlick;
 use lobe::masking::SmithCorrelated;
-use lobe::{Alpha, Brdf, Clearcoat, Coat, Lambert, MetallicRoughness, Microfacet, Rgb, SheenLayer, Vec3};
+use lobe::{Alpha, Clearcoat, Coat, Lambert, MetallicRoughness, Microfacet, SheenLayer, Vec3};
 
 const ROUGHNESS: Parameter = Parameter::number("roughness", 0.01, 1.0, "the perceptual roughness, whose square is α");
 
@@ -94,71 +94,50 @@ fn alpha<R: Number>(p: &Reader<'_, R>, name: &str) -> Alpha<R> {
     Alpha(p.number(name).squared())
 }
 
-/// Finishes one of the two forms that the material has: the one place where the masking depends on whether a parameter
-/// is there, as the specification has it.
-trait Finish<R: Number> {
-    fn finish<B: Brdf<R> + Send + Sync + 'static>(self, material: B) -> AnyBrdf<R>;
-}
-
-/// The material as it is.
-struct Bare;
-
-impl<R: Number> Finish<R> for Bare {
-    fn finish<B: Brdf<R> + Send + Sync + 'static>(self, material: B) -> AnyBrdf<R> {
-        Box::new(material)
-    }
-}
-
-/// The material under a clear coat.
-struct Coated<R>(R, Alpha<R>);
-
-impl<R: Number> Finish<R> for Coated<R> {
-    fn finish<B: Brdf<R> + Send + Sync + 'static>(self, material: B) -> AnyBrdf<R> {
-        Box::new(Clearcoat::new(material, self.0, self.1))
-    }
-}
-
-fn material<R: Number>(p: &Reader<'_, R>, finish: impl Finish<R>) -> AnyBrdf<R> {
+/// The material as long as it is the same all around. Where it is not, its masking is another, as the specification has
+/// it: the one place where a type depends on whether a parameter is there.
+fn isotropic<R: Number>(p: &Reader<'_, R>) -> MetallicRoughness<R> {
     let plain = MetallicRoughness::new(p.rgb("base-color"), p.number("metallic"), alpha(p, "roughness"));
-    let plain = plain.with_specular(p.number("ior"), p.number("specular"), p.rgb("specular-color"));
+    plain.with_specular(p.number("ior"), p.number("specular"), p.rgb("specular-color"))
+}
+
+/// The material that is not.
+fn anisotropic<R: Number>(p: &Reader<'_, R>) -> MetallicRoughness<R, SmithCorrelated, GgxAnisotropic<R>> {
+    isotropic(p).with_anisotropy(p.number("anisotropy"))
+}
+
+constructor! { gltf |p, finish| {
+    if p.is_zero("anisotropy") { finish(isotropic(p)) } else { finish(anisotropic(p)) }
+} }
+
+constructor! { gltf_clearcoat |p, finish| {
+    let (weight, alpha) = (p.number("clearcoat"), alpha(p, "clearcoat-roughness"));
     if p.is_zero("anisotropy") {
-        finish.finish(plain)
+        finish(Clearcoat::new(isotropic(p), weight, alpha))
     } else {
-        finish.finish(plain.with_anisotropy(p.number("anisotropy")))
+        finish(Clearcoat::new(anisotropic(p), weight, alpha))
     }
-}
+} }
 
-/// The material under a sheen.
-struct UnderSheen<R>(Rgb<R>, Alpha<R>);
-
-impl<R: Number> Finish<R> for UnderSheen<R> {
-    fn finish<B: Brdf<R> + Send + Sync + 'static>(self, material: B) -> AnyBrdf<R> {
-        Box::new(SheenLayer::new(material, self.0, self.1))
+constructor! { gltf_sheen |p, finish| {
+    let (color, alpha) = (p.rgb("sheen-color"), alpha(p, "sheen-roughness"));
+    if p.is_zero("anisotropy") {
+        finish(SheenLayer::new(isotropic(p), color, alpha))
+    } else {
+        finish(SheenLayer::new(anisotropic(p), color, alpha))
     }
-}
+} }
 
-fn gltf_sheen<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
-    material(p, UnderSheen(p.rgb("sheen-color"), alpha(p, "sheen-roughness")))
-}
-
-/// What the base is scaled with is 1 less something near 1: its error counts as far as the base is seen.
-fn sheen_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
-    let (base, layered) = (gltf(p).eval(l, v), gltf_sheen(p).eval(l, v));
-    let seen = [base.r / layered.r, base.g / layered.g, base.b / layered.b].into_iter().fold(0.0, f64::max);
-    Bound::WORST + super::diffuse::of_sheen(alpha(p, "sheen-roughness").0, l, v) + 40.0 * seen / 16_777_216.0
-}
-
-fn gltf<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
-    material(p, Bare)
-}
-
-fn gltf_clearcoat<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
-    material(p, Coated(p.number("clearcoat"), alpha(p, "clearcoat-roughness")))
-}
-
-fn coat<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
+constructor! { coat |p, finish| {
     let (x, y) = p.widths("alpha");
     let interface = Schlick::new(p.rgb("f0"));
     let top = Microfacet::new(Ggx::anisotropic(x, y), SmithCorrelated, interface);
-    Box::new(Coat::new(top, interface, Lambert::new(p.rgb("albedo"))))
+    finish(Coat::new(top, interface, Lambert::new(p.rgb("albedo"))))
+} }
+
+/// What the base is scaled with is 1 less something near 1: its error counts as far as the base is seen.
+fn sheen_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+    let (base, layered) = (gltf::brdf(p).eval(l, v), gltf_sheen::brdf(p).eval(l, v));
+    let seen = [base.r / layered.r, base.g / layered.g, base.b / layered.b].into_iter().fold(0.0, f64::max);
+    Bound::WORST + super::diffuse::of_sheen(alpha(p, "sheen-roughness").0, l, v) + 40.0 * seen / 16_777_216.0
 }

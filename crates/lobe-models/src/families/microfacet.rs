@@ -2,10 +2,15 @@
 
 use super::constructors;
 use super::fresnel::{self, any_fresnel};
+#[cfg(feature = "batch")]
+use crate::batch::{AnyBatch, batched, pointwise_any};
+#[cfg(feature = "batch")]
+use crate::forms::AnyFresnel;
+use crate::forms::{AnyMasking, AnySmith};
 use crate::{Bound, Model, Number, Parameter, Reader, Terms, Value};
 use lobe::distribution::{Beckmann, Distribution, Gaussian, Ggx, Gtr, PhongPower, SmithLambda, SmithTable, StudentT};
 use lobe::masking::{
-    Hammon, Implicit, Kelemen, Masking, Neumann, RationalBeckmann, SchlickGgx, SmithCorrelated, SmithSeparable, VCavity,
+    Hammon, Implicit, Kelemen, Neumann, RationalBeckmann, SchlickGgx, SmithCorrelated, SmithSeparable, VCavity,
 };
 use lobe::{Alpha, Microfacet, Vec3};
 
@@ -66,35 +71,63 @@ pub(super) const MODELS: &[Model] = &[Model {
     reciprocal: true,
     finite: true,
     bound: Bound::Derived { formula: FORMULA, at: |p, l, v| Bound::WORST + fresnel::excess(p, l, v) + excess(p, l, v) },
-    build: constructors!(facets: microfacet),
+    build: constructors!(facets: any),
 }];
 
-fn microfacet<R: Number>(p: &Reader<'_, R>) -> Box<dyn Terms<R>> {
-    let (x, y) = p.widths("alpha");
-    let mean = Alpha((x.0 * y.0).sqrt());
-    match p.choice(DISTRIBUTION.name) {
-        "beckmann" => closed(p, Beckmann::anisotropic(x, y)),
-        "blinn" => tabulated(p, PhongPower::anisotropic(x, y), || PhongPower::new(mean)),
-        "gtr" => {
-            let gamma = p.number(GAMMA.name);
-            tabulated(p, Gtr::anisotropic(x, y, gamma), || Gtr::new(mean, gamma))
+/// The model in a number type, a [`constructor!`](super::constructor) written out: the batch has types of its own.
+mod any {
+    use super::*;
+
+    pub(super) fn terms<R: Number>(p: &Reader<'_, R>) -> Box<dyn Terms<R>> {
+        let (x, y) = p.widths("alpha");
+        let mean = Alpha((x.0 * y.0).sqrt());
+        match p.choice(DISTRIBUTION.name) {
+            "beckmann" => closed(p, Beckmann::anisotropic(x, y)),
+            "blinn" => tabulated(p, PhongPower::anisotropic(x, y), || PhongPower::new(mean)),
+            "gtr" => {
+                let gamma = p.number(GAMMA.name);
+                tabulated(p, Gtr::anisotropic(x, y, gamma), || Gtr::new(mean, gamma))
+            }
+            "gaussian" => tabulated(p, Gaussian::anisotropic(x, y), || Gaussian::new(mean)),
+            "student-t" => {
+                let gamma = p.number(STUDENT_GAMMA.name);
+                tabulated(p, StudentT::anisotropic(x, y, gamma), || StudentT::new(mean, gamma))
+            }
+            _ => closed(p, Ggx::anisotropic(x, y)),
         }
-        "gaussian" => tabulated(p, Gaussian::anisotropic(x, y), || Gaussian::new(mean)),
-        "student-t" => {
-            let gamma = p.number(STUDENT_GAMMA.name);
-            tabulated(p, StudentT::anisotropic(x, y, gamma), || StudentT::new(mean, gamma))
+    }
+
+    #[cfg(feature = "batch")]
+    pub(super) fn batch(p: &Reader<'_, f32>) -> AnyBatch {
+        let (x, y) = p.widths("alpha");
+        // A lobe whose kernels are compiled for its masking and its Fresnel term, if it is one of the common ones.
+        macro_rules! common {
+            ($d:expr, $($word:literal $g:ident)+) => {
+                match (p.choice(MASKING.name), any_fresnel(p)) {
+                    $(
+                        ($word, AnyFresnel::Schlick(f)) => batched(Microfacet::new($d, $g, f)),
+                        ($word, AnyFresnel::Conductor(f)) => batched(Microfacet::new($d, $g, f)),
+                        ($word, AnyFresnel::Dielectric(f)) => batched(Microfacet::new($d, $g, f)),
+                    )+
+                    (_, f) => batched(Microfacet::new($d, any_smith(p), f)),
+                }
+            };
         }
-        _ => closed(p, Ggx::anisotropic(x, y)),
+        match p.choice(DISTRIBUTION.name) {
+            "beckmann" => common!(Beckmann::anisotropic(x, y), "smith-correlated" SmithCorrelated),
+            "blinn" | "gtr" | "gaussian" | "student-t" => pointwise_any(terms(p).into_brdf()),
+            _ => common!(
+                Ggx::anisotropic(x, y),
+                "smith-correlated" SmithCorrelated
+                "smith-separable" SmithSeparable
+            ),
+        }
     }
 }
 
 /// The model with a distribution whose `Λ` has a closed form.
 fn closed<R: Number, D: SmithLambda<R> + Send + Sync + 'static>(p: &Reader<'_, R>, d: D) -> Box<dyn Terms<R>> {
-    match p.choice(MASKING.name) {
-        "smith-correlated" => with(p, d, SmithCorrelated),
-        "smith-separable" => with(p, d, SmithSeparable),
-        _ => any_masking(p, d),
-    }
+    Box::new(Microfacet::new(d, any_smith(p), any_fresnel(p)))
 }
 
 /// The model with a distribution whose `Λ` is put into a table, if the masking needs it.
@@ -104,40 +137,33 @@ where
     D: Distribution<R> + Send + Sync + 'static,
     I: Distribution<R>,
 {
-    match p.choice(MASKING.name) {
-        "smith-correlated" | "smith-separable" => {
+    match any_smith(p) {
+        AnySmith::Other(masking) => Box::new(Microfacet::new(d, masking, any_fresnel(p))),
+        _ => {
             let (x, y) = p.widths("alpha");
             let table: SmithTable<D, R> = SmithTable::anisotropic(d, x, y, &isotropic());
             closed(p, table)
         }
-        _ => any_masking(p, d),
     }
 }
 
-/// The model with a masking that needs no `Λ`.
-fn any_masking<R: Number, D: Distribution<R> + Send + Sync + 'static>(p: &Reader<'_, R>, d: D) -> Box<dyn Terms<R>> {
+/// The masking that the parameters name.
+fn any_smith<R: Number>(p: &Reader<'_, R>) -> AnySmith<R> {
     let (x, y) = p.widths("alpha");
     let mean = Alpha((x.0 * y.0).sqrt());
-    match p.choice(MASKING.name) {
-        "v-cavity" => with(p, d, VCavity),
-        "neumann" => with(p, d, Neumann),
-        "kelemen" => with(p, d, Kelemen),
-        "hammon" => with(p, d, Hammon::new(mean)),
-        "schlick-ggx" => with(p, d, SchlickGgx::half(mean)),
-        "schlick-ggx-remapped" => with(p, d, SchlickGgx::remapped(mean)),
-        "schlick-beckmann" => with(p, d, SchlickGgx::schlick(mean)),
-        "rational-beckmann" => with(p, d, RationalBeckmann::anisotropic(x, y)),
-        _ => with(p, d, Implicit),
-    }
-}
-
-fn with<R, D, G>(p: &Reader<'_, R>, d: D, g: G) -> Box<dyn Terms<R>>
-where
-    R: Number,
-    D: Distribution<R> + Send + Sync + 'static,
-    G: Masking<R, D> + Send + Sync + 'static,
-{
-    Box::new(Microfacet::new(d, g, any_fresnel(p)))
+    AnySmith::Other(match p.choice(MASKING.name) {
+        "smith-correlated" => return AnySmith::Correlated(SmithCorrelated),
+        "smith-separable" => return AnySmith::Separable(SmithSeparable),
+        "v-cavity" => AnyMasking::VCavity(VCavity),
+        "neumann" => AnyMasking::Neumann(Neumann),
+        "kelemen" => AnyMasking::Kelemen(Kelemen),
+        "hammon" => AnyMasking::Hammon(Hammon::new(mean)),
+        "schlick-ggx" => AnyMasking::SchlickGgx(SchlickGgx::half(mean)),
+        "schlick-ggx-remapped" => AnyMasking::SchlickGgx(SchlickGgx::remapped(mean)),
+        "schlick-beckmann" => AnyMasking::SchlickGgx(SchlickGgx::schlick(mean)),
+        "rational-beckmann" => AnyMasking::RationalBeckmann(RationalBeckmann::anisotropic(x, y)),
+        _ => AnyMasking::Implicit(Implicit),
+    })
 }
 
 /// What the two excesses are, in a line.

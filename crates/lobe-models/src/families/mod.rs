@@ -14,29 +14,83 @@ use crate::catalogue::Model;
 pub(crate) const ALL: &[&[Model]] =
     &[classic::MODELS, diffuse::MODELS, empirical::MODELS, layered::MODELS, microfacet::MODELS, physical::MODELS];
 
-/// The constructors of a model in each number type, from the name of a generic function of a [`Reader`](crate::Reader);
-/// with `facets`, from that of a function that gives a lobe with its terms.
+/// A constructor in each number type, and that of the batch, from one text: a generic function and one of `f32`, in a
+/// module of the name that is given, where the last calls of the text are to what `finish` names.
+macro_rules! constructor {
+    ($name:ident |$reader:ident, $finish:ident| $body:expr) => {
+        mod $name {
+            #[allow(unused_imports, reason = "each constructor uses some of them")]
+            use super::*;
+            pub(super) fn brdf<R: crate::Number>($reader: &crate::Reader<'_, R>) -> crate::AnyBrdf<R> {
+                use crate::number::boxed as $finish;
+                $body
+            }
+            #[cfg(feature = "batch")]
+            pub(super) fn batch($reader: &crate::Reader<'_, f32>) -> crate::AnyBatch {
+                #[allow(dead_code, reason = "not every constructor names its number type")]
+                type R = f32;
+                use crate::batch::batched as $finish;
+                $body
+            }
+        }
+    };
+    // One that gives a lobe with its terms. The batch of what ends with `table` goes point by point.
+    (facets: $name:ident |$reader:ident, $finish:ident, $table:ident| $body:expr) => {
+        mod $name {
+            #[allow(unused_imports, reason = "each constructor uses some of them")]
+            use super::*;
+            pub(super) fn terms<R: crate::Number>($reader: &crate::Reader<'_, R>) -> Box<dyn crate::Terms<R>> {
+                #[allow(unused_imports, reason = "most have no table, and one has nothing else")]
+                use crate::terms::{boxed as $finish, boxed as $table};
+                $body
+            }
+            #[cfg(feature = "batch")]
+            pub(super) fn batch($reader: &crate::Reader<'_, f32>) -> crate::AnyBatch {
+                #[allow(dead_code, reason = "not every constructor names its number type")]
+                type R = f32;
+                #[allow(unused_imports, reason = "most have no table, and one has nothing else")]
+                use crate::batch::{batched as $finish, pointwise as $table};
+                $body
+            }
+        }
+    };
+}
+pub(crate) use constructor;
+
+/// The [`Constructors`](crate::catalogue::Constructors) of a model from the name of its [`constructor!`].
 macro_rules! constructors {
     ($build:ident) => {
-        crate::catalogue::Constructors { f32: $build, f64: $build, half: $build, terms: None }
+        crate::families::constructors!($build, None)
+    };
+    ($build:ident, terms: $terms:ident) => {
+        crate::families::constructors!($build, Some($terms))
     };
     (facets: $facets:ident) => {
         crate::catalogue::Constructors {
-            f32: |p| $facets(p).into_brdf(),
-            f64: |p| $facets(p).into_brdf(),
-            half: |p| $facets(p).into_brdf(),
-            terms: Some(|p| $facets(p)),
+            f32: |p| $facets::terms(p).into_brdf(),
+            f64: |p| $facets::terms(p).into_brdf(),
+            half: |p| $facets::terms(p).into_brdf(),
+            #[cfg(feature = "batch")]
+            batch: $facets::batch,
+            terms: Some(|p| $facets::terms(p)),
         }
     };
-    ($build:ident, terms: $terms:ident) => {
-        crate::catalogue::Constructors { f32: $build, f64: $build, half: $build, terms: Some($terms) }
+    ($build:ident, $terms:expr) => {
+        crate::catalogue::Constructors {
+            f32: $build::brdf,
+            f64: $build::brdf,
+            half: $build::brdf,
+            #[cfg(feature = "batch")]
+            batch: $build::batch,
+            terms: $terms,
+        }
     };
 }
 pub(crate) use constructors;
 
 /// A [`Model`] whose constructor is one expression; its bound is constant unless it says otherwise.
 ///
-/// `build` reads like a closure over a [`Reader`](crate::Reader) and is compiled as a generic function.
+/// `build` reads like a closure over a [`Reader`](crate::Reader) and is compiled by [`constructor!`].
 macro_rules! model {
     (
         name: $name:literal, summary: $summary:literal, parameters: $parameters:expr,
@@ -51,9 +105,7 @@ macro_rules! model {
         name: $name:literal, summary: $summary:literal, parameters: $parameters:expr, reciprocal: $reciprocal:literal,
         finite: $finite:literal, bound: $bound:expr, build: |$reader:ident| $build:expr $(,)?
     ) => {{
-        fn build<R: crate::Number>($reader: &crate::Reader<'_, R>) -> crate::AnyBrdf<R> {
-            Box::new($build)
-        }
+        crate::families::constructor! { build |$reader, finish| finish($build) }
         crate::Model {
             name: $name,
             summary: $summary,

@@ -1,8 +1,8 @@
 //! The microfacet models of 1967 to 1981, as their papers have them.
 
-use crate::families::constructors;
+use crate::families::{constructor, constructors};
 use crate::parameter::TABLE;
-use crate::{AnyBrdf, AnyTerms, Bound, Kind, Model, Number, Parameter, Reader, Terms};
+use crate::{AnyTerms, Bound, Kind, Model, Number, Parameter, Reader};
 use lobe::distribution::{Beckmann, Distribution, Gaussian, Ggx, Gtr, PhongPower, SmithTable, Tabulated};
 use lobe::fresnel::{Dielectric, Schlick};
 use lobe::masking::{SmithSeparable, VCavity};
@@ -117,15 +117,13 @@ pub(super) const MODELS: &[Model] = &[
     },
 ];
 
-fn torrance_sparrow<R: Number>(p: &Reader<'_, R>) -> Box<dyn Terms<R>> {
+constructor! { facets: torrance_sparrow |p, finish, table| {
     let terms: TorranceSparrow<Dielectric<R>, R> =
         Microfacet::new(Gaussian::new(Alpha(p.number("c"))), VCavity, Dielectric::new(Ior(p.number("ior"))));
-    Box::new(terms)
-}
+    finish(terms)
+} }
 
-fn cook_torrance<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
-    Box::new(cook_torrance_lobe(p))
-}
+constructor! { cook_torrance |p, finish| finish(cook_torrance_lobe(p)) }
 
 fn cook_torrance_terms(p: &Reader<'_, f64>) -> AnyTerms {
     Box::new(cook_torrance_lobe(p).modern())
@@ -135,9 +133,7 @@ fn cook_torrance_lobe<R: Number>(p: &Reader<'_, R>) -> CookTorrance<Schlick<R>, 
     CookTorrance::new(p.rgb("ks"), Alpha(p.number("m")), Schlick::new(p.rgb("f0")))
 }
 
-fn blinn<R: Number>(p: &Reader<'_, R>) -> AnyBrdf<R> {
-    Box::new(blinn_lobe(p))
-}
+constructor! { blinn |p, finish| finish(blinn_lobe(p)) }
 
 fn blinn_terms(p: &Reader<'_, f64>) -> AnyTerms {
     Box::new(blinn_lobe(p).modern())
@@ -162,28 +158,29 @@ fn tabulated(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     Bound::WORST + 160.0 * steepest / value / 16_777_216.0
 }
 
-fn generator_of_table<R: Number>(p: &Reader<'_, R>) -> Box<dyn Terms<R>> {
+constructor! { facets: generator_of_table |p, finish, table| {
     // Where the nodes of Λ are dense: slopes from a tenth of this to ten times it.
     let width = Alpha(R::from_f64(0.5));
-    let table: Table<R> = SmithTable::new(Tabulated::new(p.table("table")), width);
+    let facets: Table<R> = SmithTable::new(Tabulated::new(p.table("table")), width);
     let lobe: AshikhminPremozeShirley<Table<R>, Schlick<R>> =
-        Microfacet::new(table, SmithSeparable, Schlick::new(p.rgb("f0")));
-    Box::new(lobe)
+        Microfacet::new(facets, SmithSeparable, Schlick::new(p.rgb("f0")));
+    table(lobe)
+} }
+
+/// One type for all: they differ in the distribution alone.
+fn generate<D, F>(distribution: D, fresnel: F) -> AshikhminPremozeShirley<D, F> {
+    Microfacet::new(distribution, SmithSeparable, fresnel)
 }
 
-fn generator<R: Number>(p: &Reader<'_, R>) -> Box<dyn Terms<R>> {
+constructor! { facets: generator |p, finish, table| {
     let (alpha, schlick) = (Alpha(p.number("width")), Schlick::new(p.rgb("f0")));
-    /// One type for all: they differ in the distribution alone.
-    fn generate<D, F>(distribution: D, fresnel: F) -> AshikhminPremozeShirley<D, F> {
-        Microfacet::new(distribution, SmithSeparable, fresnel)
-    }
     match p.choice("distribution") {
-        "beckmann" => Box::new(generate(Beckmann::new(alpha), schlick)),
-        "blinn" => Box::new(generate(SmithTable::<_, R>::new(PhongPower::new(alpha), alpha), schlick)),
+        "beckmann" => finish(generate(Beckmann::new(alpha), schlick)),
+        "blinn" => table(generate(SmithTable::<_, R>::new(PhongPower::new(alpha), alpha), schlick)),
         "gtr" => {
             let d = Gtr::new(alpha, p.number("gamma"));
-            Box::new(generate(SmithTable::<_, R>::new(d, alpha), schlick))
+            table(generate(SmithTable::<_, R>::new(d, alpha), schlick))
         }
-        _ => Box::new(generate(Ggx::new(alpha), schlick)),
+        _ => finish(generate(Ggx::new(alpha), schlick)),
     }
-}
+} }
