@@ -8,7 +8,7 @@ fn check<R: Scalar>(line: &[u8], normalize: bool) {
     match parse_line::<R>(line, normalize) {
         Ok(Line::Pair(l, v)) => {
             for direction in [l, v] {
-                let length = direction.map(Into::<f64>::into).length();
+                let length = direction.map(R::wide).length();
                 assert!((length - 1.0).abs() <= R::LENGTH_TOLERANCE, "{direction:?}");
             }
         }

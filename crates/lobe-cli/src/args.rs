@@ -56,6 +56,9 @@ pub(crate) enum Command {
     /// Try all 2^32 arguments of the elementary functions of f32
     #[command(after_help = SWEEP_HELP)]
     Sweep(SweepArgs),
+    /// Time every model in every number type, beside the error that is seen
+    #[command(after_help = TRADE_HELP)]
+    Trade(TradeArgs),
     /// Hold every model to its error bound at the extremes of its domain
     #[command(after_help = VERIFY_HELP)]
     Verify(VerifyArgs),
@@ -178,7 +181,8 @@ pub(crate) struct EvalArgs {
     /// The BRDF: JSON, @FILE with JSON, or the name of a preset
     #[arg(long, default_value = "red-plastic")]
     pub(crate) brdf: String,
-    /// The number type to read, compute and print in: f32, f64, or half, which rounds every operation to binary16
+    /// The number type to read, compute and print in: f32, f64, fast or coarse, which trade digits
+    /// for speed, or half, which rounds every operation to binary16
     #[arg(long, default_value = "f32", value_parser = parse_number)]
     pub(crate) number: Number,
     /// Scale directions to unit length first; without it a length off by more than 0.00001 (0.002 for half) is
@@ -235,6 +239,10 @@ pub(crate) enum Number {
     F64,
     /// 16-bit floats, emulated.
     Half,
+    /// 32-bit floats whose functions have about 13 digits.
+    Fast,
+    /// 32-bit floats whose functions have about 10 digits.
+    Coarse,
 }
 
 fn parse_number(text: &str) -> Result<Number, String> {
@@ -242,8 +250,10 @@ fn parse_number(text: &str) -> Result<Number, String> {
         "f32" => Ok(Number::F32),
         "f64" => Ok(Number::F64),
         "half" => Ok(Number::Half),
-        "wide" | "fast" | "coarse" => Err("planned, but not there yet; use f32, f64 or half".to_owned()),
-        _ => Err("unknown number type; use f32, f64 or half".to_owned()),
+        "fast" => Ok(Number::Fast),
+        "coarse" => Ok(Number::Coarse),
+        "wide" => Err("lanes have the bits of f32; use f32, f64, fast, coarse or half".to_owned()),
+        _ => Err("unknown number type; use f32, f64, fast, coarse or half".to_owned()),
     }
 }
 
@@ -357,6 +367,59 @@ Examples:
   lobe sweep log2
   lobe sweep --precision fast --stride 64
   lobe sweep --stride 1009 --json";
+
+/// `lobe trade`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct TradeArgs {
+    /// A scene, .json or .obj, whose materials are measured; the whole catalogue without it
+    pub(crate) scene: Option<PathBuf>,
+    /// Only the cheapest way to each material of the scene that is seen to be off by at most this, such as 1/255
+    #[arg(long, requires = "scene", allow_negative_numbers = true, value_parser = parse_budget)]
+    pub(crate) budget: Option<f64>,
+    /// Only this one of the catalogue, such as ward or \"microfacet ggx conductor\"
+    #[arg(long, conflicts_with = "scene", value_name = "NAME")]
+    pub(crate) only: Option<String>,
+    /// Some seconds instead of some minutes; the times are rough
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Write the table as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Write the table as a page in Markdown
+    #[arg(long, value_name = "FILE")]
+    pub(crate) markdown: Option<PathBuf>,
+    /// Write a plot of time against error for each material into this folder
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) svg: Option<PathBuf>,
+}
+
+const TRADE_HELP: &str = "\
+Each material is run as it is, and with approximations in place of its parts, where there are some: in f64, f32, fast
+and coarse, and in lanes of each SIMD level, precise, fast and coarse.
+
+ns is the time of one evaluation from the cache, with quartiles, stream the time from 64 MiB of memory, M/s all what all
+cores do in a second, in millions. median, p99 and worst are relative errors against f64, albedo that of the directional
+albedo. The last three are what is seen on a sphere under three lights: CIE Delta E 2000, and the largest difference in
+steps of eight bits.
+
+Examples:
+  lobe trade
+  lobe trade --only ward --quick
+  lobe trade --csv trade.csv --svg plots --markdown trade.md
+  lobe trade scene.json --budget 1/255";
+
+/// A part of white: `1/255`, or `0.004`.
+fn parse_budget(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let value = match text.split_once('/') {
+        Some((a, b)) => number(a).zip(number(b)).map(|(a, b)| a / b),
+        None => number(text),
+    };
+    match value {
+        Some(budget) if (0.0..=1.0).contains(&budget) => Ok(budget),
+        _ => Err("a part of white from 0 to 1, such as 1/255 or 0.01".to_owned()),
+    }
+}
 
 /// `lobe verify`.
 #[derive(Debug, ArgsOf)]

@@ -5,6 +5,7 @@ use crate::error::{Failure, reason};
 use crate::output;
 use crate::progress::Progress;
 use crate::spec;
+use lobe::number::{Approximate, Coarse, Fast};
 use lobe::{Half, Real, Vec3};
 use lobe_models::{Material, Number as Built};
 use serde_json::json;
@@ -24,7 +25,7 @@ pub enum Line<R> {
 }
 
 /// The scalar types that lines are read in.
-pub trait Scalar: Real + Built + Debug + Into<f64> {
+pub trait Scalar: Real + Built + Debug {
     /// How far from 1 a length may be: a unit vector of `f32` is off by 1e-7, one printed with six decimals by 1e-6. A
     /// lobe of exponent `q` turns an error of the length into one `q` times as large, so what is off by more has to be
     /// normalised.
@@ -34,6 +35,8 @@ pub trait Scalar: Real + Built + Debug + Into<f64> {
 
     /// The number that a text stands for.
     fn parse(text: &str) -> Option<Self>;
+    /// The same number, exactly.
+    fn wide(self) -> f64;
     /// The shortest decimal that reads back the same; very small and very large ones have an exponent.
     fn print(self) -> String;
 }
@@ -41,6 +44,9 @@ pub trait Scalar: Real + Built + Debug + Into<f64> {
 impl Scalar for f32 {
     fn parse(text: &str) -> Option<Self> {
         text.parse().ok()
+    }
+    fn wide(self) -> f64 {
+        f64::from(self)
     }
     fn print(self) -> String {
         format!("{self:?}")
@@ -50,6 +56,9 @@ impl Scalar for f32 {
 impl Scalar for f64 {
     fn parse(text: &str) -> Option<Self> {
         text.parse().ok()
+    }
+    fn wide(self) -> f64 {
+        self
     }
     fn print(self) -> String {
         format!("{self:?}")
@@ -65,11 +74,36 @@ impl Scalar for Half {
     fn parse(text: &str) -> Option<Self> {
         text.parse::<f64>().ok().map(Self::from)
     }
+    fn wide(self) -> f64 {
+        self.into()
+    }
     fn print(self) -> String {
         // Four or five digits tell numbers of binary16 apart; those of `f32` are more than it has, but read back the same.
         format!("{:?}", f32::from(self))
     }
 }
+
+/// Of a precision that trades digits: they are read and printed as those of `f32`.
+macro_rules! approximate {
+    ($($precision:ident)+) => {$(
+        impl Scalar for Approximate<f32, $precision> {
+            fn parse(text: &str) -> Option<Self> {
+                text.parse().ok().map(Self::new)
+            }
+            fn wide(self) -> f64 {
+                f64::from(self.value())
+            }
+            fn print(self) -> String {
+                self.value().print()
+            }
+            // The largest of the estimates that unit vectors are made with is off by 3.7e-4.
+            const LENGTH_TOLERANCE: f64 = 1e-3;
+            // Beyond, an estimate has no reciprocal of the square of a length.
+            const LENGTHS: &str = "1e-18 to 1e18";
+        }
+    )+};
+}
+approximate!(Fast Coarse);
 
 /// Reads a line `lx,ly,lz,vx,vy,vz`. If `normalize`, directions are scaled to unit length; otherwise their length is
 /// within [`Scalar::LENGTH_TOLERANCE`] of 1.
@@ -88,8 +122,7 @@ pub fn parse_line<R: Scalar>(line: &[u8], normalize: bool) -> Result<Line<R>, St
         if let Some(number) = numbers.get_mut(count) {
             let field = field.trim();
             let value = R::parse(field).ok_or_else(|| format!("`{}` is not a number; {RIGHT}", shorten(field)))?;
-            let wide: f64 = value.into();
-            if !wide.is_finite() {
+            if !value.wide().is_finite() {
                 return Err(format!("`{}` is not a finite number; {RIGHT}", shorten(field)));
             }
             *number = Some(value);
@@ -112,13 +145,13 @@ fn is_header(text: &str) -> bool {
 
 fn direction<R: Scalar>(name: &str, d: Vec3<R>, normalize: bool) -> Result<Vec3<R>, String> {
     // Of the numbers as they were read, in `f64`: the check is the same for all number types.
-    let length = d.map(Into::<f64>::into).length();
+    let length = d.map(R::wide).length();
     if length == 0.0 {
         return Err(format!("direction {name} has length 0; a direction has unit length"));
     }
     if normalize {
         let unit = d.normalize();
-        return match unit.map(Into::<f64>::into).length() {
+        return match unit.map(R::wide).length() {
             unit_length if (unit_length - 1.0).abs() <= R::LENGTH_TOLERANCE => Ok(unit),
             _ => Err(format!("direction {name} has length {length}; a length from {} can be normalized", R::LENGTHS)),
         };
@@ -151,6 +184,8 @@ pub(crate) fn run(args: &EvalArgs, quiet: bool, json: bool) -> Result<(), Failur
         Number::F32 => stream::<f32>(&spec, args.normalize, json, &bar),
         Number::F64 => stream::<f64>(&spec, args.normalize, json, &bar),
         Number::Half => stream::<Half>(&spec, args.normalize, json, &bar),
+        Number::Fast => stream::<Approximate<f32, Fast>>(&spec, args.normalize, json, &bar),
+        Number::Coarse => stream::<Approximate<f32, Coarse>>(&spec, args.normalize, json, &bar),
     }
 }
 
@@ -222,7 +257,7 @@ fn print_value<R: Scalar>(out: &mut impl Write, f: lobe::Rgb<R>, json: bool) -> 
         return writeln!(out, "{},{},{}", f.r.print(), f.g.print(), f.b.print());
     }
     // JSON has no word for an overflow.
-    let [r, g, b] = [f.r, f.g, f.b].map(|x| if x.into().is_finite() { x.print() } else { "null".to_owned() });
+    let [r, g, b] = [f.r, f.g, f.b].map(|x| if x.wide().is_finite() { x.print() } else { "null".to_owned() });
     writeln!(out, "[{r},{g},{b}]")
 }
 

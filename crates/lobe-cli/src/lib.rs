@@ -1,4 +1,4 @@
-//! The command `lobe`: report, render, plot, eval, models, sweep and verify.
+//! The command `lobe`: report, render, plot, eval, models, sweep, trade and verify.
 //!
 //! The program is this library and a `main` of one line, so that tests and fuzz targets can call the parsers:
 //! [`spec::parse`] for BRDFs in JSON, [`eval::parse_line`] for pairs of directions in CSV.
@@ -16,6 +16,7 @@ mod render;
 mod report;
 pub mod spec;
 mod sweep;
+mod trade;
 mod verify;
 
 use args::{Args, Command};
@@ -45,6 +46,7 @@ fn run(args: &Args) -> Result<(), Failure> {
         Some(Command::Models(models)) => models::run(models, args.json),
         Some(Command::Plot(plot)) => plot::run(plot, args.quiet, args.json),
         Some(Command::Sweep(sweep)) => sweep::run(sweep, args.quiet, args.json),
+        Some(Command::Trade(trade)) => trade::run(trade, args.quiet, args.json),
         Some(Command::Verify(verify)) => verify::run(verify, args.quiet, args.json),
         Some(Command::Completions { shell }) => completions(*shell),
         Some(Command::Render(render)) => render::run(render, args.quiet, args.json),

@@ -79,6 +79,13 @@ fn eval_prints_the_bits_of_the_library() {
     assert_eq!((half.err.as_str(), half.out.lines().count()), ("", pairs.len()));
     let first = |out: &str| out.split(',').next().and_then(|x| x.parse::<f32>().ok()).expect("a number");
     assert!((first(&half.out) / first(&single.out) - 1.0).abs() < 0.005, "{}", half.out);
+    // So have the numbers that trade digits, as many as they promise.
+    for (number, bound) in [("fast", 2e-3), ("coarse", 2e-2)] {
+        let rough = lobe(&["eval", "--brdf", "red-plastic", "--number", number], &csv);
+        assert_eq!((rough.err.as_str(), rough.out.lines().count()), ("", pairs.len()));
+        assert!((first(&rough.out) / first(&single.out) - 1.0).abs() < bound, "{number}: {}", rough.out);
+        assert!(rough.out != single.out, "{number} trades nothing");
+    }
 }
 
 #[test]
@@ -138,7 +145,7 @@ fn wrong_brdfs_say_what_would_be_right() {
     assert!(run.err.starts_with("error: unknown preset `gold-plated` for --brdf; the presets are paper, red-plastic"));
     let run = lobe(&["eval", "--number", "wide"], "");
     assert_eq!(run.code, Some(2));
-    assert!(run.err.contains("planned, but not there yet; use f32, f64 or half"));
+    assert!(run.err.contains("lanes have the bits of f32; use f32, f64, fast, coarse or half"));
     let run = lobe(&["eval", "--brdf", r#"{"lobes": [{"model": "lambert", "albedo": 2}]}"#], "");
     assert_eq!(run.code, Some(0), "above 1 is only a warning");
     assert!(run.err.starts_with("warning: "));

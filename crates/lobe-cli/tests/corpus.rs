@@ -59,7 +59,7 @@ fn check<R: eval::Scalar>(path: &str, line: &[u8], normalize: bool) {
     match eval::parse_line::<R>(line, normalize) {
         Ok(eval::Line::Pair(l, v)) => {
             for direction in [l, v] {
-                let length = direction.map(Into::<f64>::into).length();
+                let length = direction.map(R::wide).length();
                 assert!((length - 1.0).abs() <= R::LENGTH_TOLERANCE, "{path}: {direction:?}");
             }
         }

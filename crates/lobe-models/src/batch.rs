@@ -184,10 +184,15 @@ where
 
 /// The same for a lobe whose lanes would be too much code: point by point, as the scalar `f32` in every precision.
 ///
-/// Those are the lobes with a [`SmithTable`](lobe::distribution::SmithTable), which lanes add up node by node, in
-/// kernels of hundreds of kilobytes each.
+/// Those are the lobes with a [`SmithTable`](lobe::distribution::SmithTable), which lanes add up node by node: with
+/// them the crate takes a compiler two minutes more.
 pub(crate) fn pointwise(lobe: impl Brdf<f32> + Send + Sync + 'static) -> AnyBatch {
-    Box::new(Pointwise(Arc::new(lobe)))
+    pointwise_any(Box::new(lobe))
+}
+
+/// The same for one of which no more is known.
+pub(crate) fn pointwise_any(lobe: AnyBrdf<f32>) -> AnyBatch {
+    Box::new(Pointwise(Arc::from(lobe)))
 }
 
 #[derive(Clone)]

@@ -6,7 +6,7 @@ mod lobes;
 
 use lobe::batch::{LengthError, Level};
 use lobe::number::{Approximate, Fast};
-use lobe::{Brdf, Rgb, Vec3};
+use lobe::{Rgb, Vec3};
 use lobe_models::{AnyBatch, AnyPrecision, Kind, Lobe, Material, Value, model, models};
 use lobe_verify::strategies::pair_above;
 use proptest::strategy::{Strategy as _, ValueTree as _};
@@ -50,9 +50,7 @@ impl Pairs {
 
     /// The first of them.
     fn slices(&self, length: usize) -> (Vec3<&[f32]>, Vec3<&[f32]>) {
-        let vector =
-            |[x, y, z]: &'_ [Vec<f32>; 3]| -> Vec3<&[f32]> { Vec3::new(&x[..length], &y[..length], &z[..length]) };
-        (vector(&self.l), vector(&self.v))
+        (vector(&self.l, length), vector(&self.v, length))
     }
 
     /// `eval_cos` of the first of them.
@@ -62,6 +60,10 @@ impl Pairs {
         batch.eval_cos(level, precision, l, v, Rgb { r: &mut r, g: &mut g, b: &mut b }).expect("one length");
         (0..length).map(|i| [r[i], g[i], b[i]]).collect()
     }
+}
+
+fn vector([x, y, z]: &[Vec<f32>; 3], length: usize) -> Vec3<&[f32]> {
+    Vec3::new(&x[..length], &y[..length], &z[..length])
 }
 
 fn same(a: [f32; 3], b: [f32; 3]) -> bool {

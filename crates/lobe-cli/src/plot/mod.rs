@@ -3,6 +3,7 @@
 mod chart;
 mod compare;
 mod curve;
+mod pareto;
 mod polar;
 mod surface;
 pub(crate) mod svg;
@@ -10,6 +11,7 @@ mod terms;
 
 pub(crate) use compare::{compare, compare_panel};
 pub(crate) use curve::{curve, slices};
+pub(crate) use pareto::{Dot, pareto};
 pub(crate) use polar::{distribution, polar};
 pub(crate) use surface::surface;
 pub(crate) use terms::{Cut, Facets, terms};

@@ -63,16 +63,13 @@ pub(super) const MODELS: &[Model] = &[
     },
 ];
 
-constructor!(
-    blinn_phong | p,
-    finish | {
-        let (ks, q) = (p.rgb("ks"), p.shininess());
-        match p.choice("normalization") {
-            "common" => finish(BlinnPhong::<R, CommonNormalization>::with_normalization(ks, q)),
-            _ => finish(BlinnPhong::<R, NormalIncidence>::with_normalization(ks, q)),
-        }
+constructor! { blinn_phong |p, finish| {
+    let (ks, q) = (p.rgb("ks"), p.shininess());
+    match p.choice("normalization") {
+        "common" => finish(BlinnPhong::<R, CommonNormalization>::with_normalization(ks, q)),
+        _ => finish(BlinnPhong::<R, NormalIncidence>::with_normalization(ks, q)),
     }
-);
+} }
 
 /// The unit roundoff of `f32`.
 const U: f64 = 1.0 / 16_777_216.0;

@@ -106,41 +106,34 @@ fn anisotropic<R: Number>(p: &Reader<'_, R>) -> MetallicRoughness<R, SmithCorrel
     isotropic(p).with_anisotropy(p.number("anisotropy"))
 }
 
-constructor!(gltf | p, finish | if p.is_zero("anisotropy") { finish(isotropic(p)) } else { finish(anisotropic(p)) });
+constructor! { gltf |p, finish| {
+    if p.is_zero("anisotropy") { finish(isotropic(p)) } else { finish(anisotropic(p)) }
+} }
 
-constructor!(
-    gltf_clearcoat | p,
-    finish | {
-        let (weight, alpha) = (p.number("clearcoat"), alpha(p, "clearcoat-roughness"));
-        if p.is_zero("anisotropy") {
-            finish(Clearcoat::new(isotropic(p), weight, alpha))
-        } else {
-            finish(Clearcoat::new(anisotropic(p), weight, alpha))
-        }
+constructor! { gltf_clearcoat |p, finish| {
+    let (weight, alpha) = (p.number("clearcoat"), alpha(p, "clearcoat-roughness"));
+    if p.is_zero("anisotropy") {
+        finish(Clearcoat::new(isotropic(p), weight, alpha))
+    } else {
+        finish(Clearcoat::new(anisotropic(p), weight, alpha))
     }
-);
+} }
 
-constructor!(
-    gltf_sheen | p,
-    finish | {
-        let (color, alpha) = (p.rgb("sheen-color"), alpha(p, "sheen-roughness"));
-        if p.is_zero("anisotropy") {
-            finish(SheenLayer::new(isotropic(p), color, alpha))
-        } else {
-            finish(SheenLayer::new(anisotropic(p), color, alpha))
-        }
+constructor! { gltf_sheen |p, finish| {
+    let (color, alpha) = (p.rgb("sheen-color"), alpha(p, "sheen-roughness"));
+    if p.is_zero("anisotropy") {
+        finish(SheenLayer::new(isotropic(p), color, alpha))
+    } else {
+        finish(SheenLayer::new(anisotropic(p), color, alpha))
     }
-);
+} }
 
-constructor!(
-    coat | p,
-    finish | {
-        let (x, y) = p.widths("alpha");
-        let interface = Schlick::new(p.rgb("f0"));
-        let top = Microfacet::new(Ggx::anisotropic(x, y), SmithCorrelated, interface);
-        finish(Coat::new(top, interface, Lambert::new(p.rgb("albedo"))))
-    }
-);
+constructor! { coat |p, finish| {
+    let (x, y) = p.widths("alpha");
+    let interface = Schlick::new(p.rgb("f0"));
+    let top = Microfacet::new(Ggx::anisotropic(x, y), SmithCorrelated, interface);
+    finish(Coat::new(top, interface, Lambert::new(p.rgb("albedo"))))
+} }
 
 /// What the base is scaled with is 1 less something near 1: its error counts as far as the base is seen.
 fn sheen_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {

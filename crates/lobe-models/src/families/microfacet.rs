@@ -3,7 +3,7 @@
 use super::constructors;
 use super::fresnel::{self, any_fresnel};
 #[cfg(feature = "batch")]
-use crate::batch::{AnyBatch, batched, pointwise};
+use crate::batch::{AnyBatch, batched, pointwise_any};
 #[cfg(feature = "batch")]
 use crate::forms::AnyFresnel;
 use crate::forms::{AnyMasking, AnySmith};
@@ -71,11 +71,11 @@ pub(super) const MODELS: &[Model] = &[Model {
     reciprocal: true,
     finite: true,
     bound: Bound::Derived { formula: FORMULA, at: |p, l, v| Bound::WORST + fresnel::excess(p, l, v) + excess(p, l, v) },
-    build: constructors!(facets: microfacet),
+    build: constructors!(facets: any),
 }];
 
 /// The model in a number type, a [`constructor!`](super::constructor) written out: the batch has types of its own.
-mod microfacet {
+mod any {
     use super::*;
 
     pub(super) fn terms<R: Number>(p: &Reader<'_, R>) -> Box<dyn Terms<R>> {
@@ -100,7 +100,6 @@ mod microfacet {
     #[cfg(feature = "batch")]
     pub(super) fn batch(p: &Reader<'_, f32>) -> AnyBatch {
         let (x, y) = p.widths("alpha");
-        let mean = Alpha(lobe::Real::sqrt(x.0 * y.0));
         // A lobe whose kernels are compiled for its masking and its Fresnel term, if it is one of the common ones.
         macro_rules! common {
             ($d:expr, $($word:literal $g:ident)+) => {
@@ -114,29 +113,9 @@ mod microfacet {
                 }
             };
         }
-        macro_rules! table {
-            ($d:expr, $isotropic:expr) => {
-                match any_smith(p) {
-                    AnySmith::Other(masking) => batched(Microfacet::new($d, masking, any_fresnel(p))),
-                    smith => {
-                        let table: SmithTable<_, f32> = SmithTable::anisotropic($d, x, y, &$isotropic);
-                        pointwise(Microfacet::new(table, smith, any_fresnel(p)))
-                    }
-                }
-            };
-        }
         match p.choice(DISTRIBUTION.name) {
             "beckmann" => common!(Beckmann::anisotropic(x, y), "smith-correlated" SmithCorrelated),
-            "blinn" => table!(PhongPower::anisotropic(x, y), PhongPower::new(mean)),
-            "gtr" => {
-                let gamma = p.number(GAMMA.name);
-                table!(Gtr::anisotropic(x, y, gamma), Gtr::new(mean, gamma))
-            }
-            "gaussian" => table!(Gaussian::anisotropic(x, y), Gaussian::new(mean)),
-            "student-t" => {
-                let gamma = p.number(STUDENT_GAMMA.name);
-                table!(StudentT::anisotropic(x, y, gamma), StudentT::new(mean, gamma))
-            }
+            "blinn" | "gtr" | "gaussian" | "student-t" => pointwise_any(terms(p).into_brdf()),
             _ => common!(
                 Ggx::anisotropic(x, y),
                 "smith-correlated" SmithCorrelated

@@ -105,7 +105,7 @@ macro_rules! model {
         name: $name:literal, summary: $summary:literal, parameters: $parameters:expr, reciprocal: $reciprocal:literal,
         finite: $finite:literal, bound: $bound:expr, build: |$reader:ident| $build:expr $(,)?
     ) => {{
-        crate::families::constructor!(build | $reader, finish | finish($build));
+        crate::families::constructor! { build |$reader, finish| finish($build) }
         crate::Model {
             name: $name,
             summary: $summary,

@@ -117,13 +117,13 @@ pub(super) const MODELS: &[Model] = &[
     },
 ];
 
-constructor!(facets: torrance_sparrow |p, finish, table| {
+constructor! { facets: torrance_sparrow |p, finish, table| {
     let terms: TorranceSparrow<Dielectric<R>, R> =
         Microfacet::new(Gaussian::new(Alpha(p.number("c"))), VCavity, Dielectric::new(Ior(p.number("ior"))));
     finish(terms)
-});
+} }
 
-constructor!(cook_torrance | p, finish | finish(cook_torrance_lobe(p)));
+constructor! { cook_torrance |p, finish| finish(cook_torrance_lobe(p)) }
 
 fn cook_torrance_terms(p: &Reader<'_, f64>) -> AnyTerms {
     Box::new(cook_torrance_lobe(p).modern())
@@ -133,7 +133,7 @@ fn cook_torrance_lobe<R: Number>(p: &Reader<'_, R>) -> CookTorrance<Schlick<R>, 
     CookTorrance::new(p.rgb("ks"), Alpha(p.number("m")), Schlick::new(p.rgb("f0")))
 }
 
-constructor!(blinn | p, finish | finish(blinn_lobe(p)));
+constructor! { blinn |p, finish| finish(blinn_lobe(p)) }
 
 fn blinn_terms(p: &Reader<'_, f64>) -> AnyTerms {
     Box::new(blinn_lobe(p).modern())
@@ -158,21 +158,21 @@ fn tabulated(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     Bound::WORST + 160.0 * steepest / value / 16_777_216.0
 }
 
-constructor!(facets: generator_of_table |p, finish, table| {
+constructor! { facets: generator_of_table |p, finish, table| {
     // Where the nodes of Λ are dense: slopes from a tenth of this to ten times it.
     let width = Alpha(R::from_f64(0.5));
     let facets: Table<R> = SmithTable::new(Tabulated::new(p.table("table")), width);
     let lobe: AshikhminPremozeShirley<Table<R>, Schlick<R>> =
         Microfacet::new(facets, SmithSeparable, Schlick::new(p.rgb("f0")));
     table(lobe)
-});
+} }
 
 /// One type for all: they differ in the distribution alone.
 fn generate<D, F>(distribution: D, fresnel: F) -> AshikhminPremozeShirley<D, F> {
     Microfacet::new(distribution, SmithSeparable, fresnel)
 }
 
-constructor!(facets: generator |p, finish, table| {
+constructor! { facets: generator |p, finish, table| {
     let (alpha, schlick) = (Alpha(p.number("width")), Schlick::new(p.rgb("f0")));
     match p.choice("distribution") {
         "beckmann" => finish(generate(Beckmann::new(alpha), schlick)),
@@ -183,4 +183,4 @@ constructor!(facets: generator |p, finish, table| {
         }
         _ => finish(generate(Ggx::new(alpha), schlick)),
     }
-});
+} }

@@ -1,0 +1,95 @@
+//! `lobe trade`, as a user types it.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn lobe_in(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lobe")).args(arguments).current_dir(folder).output().expect("the command runs")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn the_table_has_every_number_and_every_approximation() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = lobe_in(
+        folder.path(),
+        &[
+            "trade",
+            "--only",
+            "microfacet ggx conductor",
+            "--quick",
+            "--csv",
+            "t.csv",
+            "--markdown",
+            "t.md",
+            "--svg",
+            "plots",
+        ],
+    );
+    let table = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    for name in ["    f64 ", "    f32 ", "    fast ", "    coarse ", "Schlick for Fresnel", "Blinn-Phong for GGX"] {
+        assert!(table.contains(name), "{name}: {table}");
+    }
+    let numbers = 4 + 3 * lobe_trade::levels().len();
+    let csv = fs::read_to_string(folder.path().join("t.csv")).expect("a file");
+    let forms = csv.lines().filter(|line| line.contains(",f64,")).count();
+    assert_eq!((forms, csv.lines().count()), (7, 1 + 7 * numbers));
+    let page = fs::read_to_string(folder.path().join("t.md")).expect("a file");
+    assert_eq!(page.lines().filter(|line| line.starts_with("| exact |")).count(), numbers);
+    let plot = fs::read_to_string(folder.path().join("plots/microfacet-ggx-conductor.svg")).expect("a file");
+    assert_eq!(plot.matches("<circle").count(), 7 * numbers + 6);
+}
+
+const SCENE: &str = r#"{"obj": "box.obj",
+    "materials": {"paint": {"lobes": [{"model": "lambert", "albedo": 0.5},
+        {"model": "microfacet", "alpha": 0.3, "fresnel": "dielectric"}]}}}"#;
+
+/// A scene of one triangle.
+fn scene() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("box.obj"), "mtllib box.mtl\nusemtl paint\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        .expect("a file");
+    fs::write(folder.path().join("box.mtl"), "newmtl paint\nKd 0.5 0.5 0.5\n").expect("a file");
+    fs::write(folder.path().join("scene.json"), SCENE).expect("a file");
+    folder
+}
+
+#[test]
+fn a_budget_names_the_cheapest_within_it() {
+    let folder = scene();
+    let run = lobe_in(folder.path(), &["trade", "scene.json", "--budget", "1/255", "--quick", "--json"]);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let facts: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");
+    let paint = &facts["subjects"][0];
+    assert_eq!(paint["subject"], "paint");
+    let (choice, rows) = (&paint["choice"], paint["rows"].as_array().expect("rows"));
+    assert!(choice["steps_of_8_bits"].as_u64().expect("a number") <= 1, "{choice}");
+    let time = |row: &serde_json::Value| row["ns"]["median"].as_f64().expect("a number");
+    let within = rows.iter().filter(|row| row["steps_of_8_bits"].as_u64() <= Some(1));
+    assert!(within.into_iter().all(|row| time(row) >= time(choice)), "{choice}");
+    assert!(rows.iter().any(|row| row["form"] == "Schlick for Fresnel (lobe 2)"));
+    let line = text(&lobe_in(folder.path(), &["trade", "scene.json", "--budget", "0.004", "--quick"]).stdout);
+    assert!(line.lines().any(|line| line.starts_with("paint: ") && line.contains("% of the scalar f32")), "{line}");
+}
+
+#[test]
+fn what_is_wrong_is_said() {
+    let folder = scene();
+    let fails = |arguments: &[&str], code: i32, message: &str| {
+        let run = lobe_in(folder.path(), arguments);
+        assert_eq!(run.status.code(), Some(code), "{arguments:?}");
+        assert!(text(&run.stderr).contains(message), "{arguments:?}: {}", text(&run.stderr));
+    };
+    fails(&["trade", "none.json"], 3, "none.json: cannot read this file");
+    for budget in ["2", "1/0", "-1/255", "some"] {
+        fails(&["trade", "scene.json", "--budget", budget], 2, "a part of white from 0 to 1, such as 1/255 or 0.01");
+    }
+    fails(&["trade", "--budget", "1/255"], 2, "required");
+    fails(&["trade", "--only", "wrad"], 2, "unknown subject `wrad` for --only; the nearest are ward");
+    fails(&["trade", "--only", "ward", "--quick", "--csv", "no/such/folder.csv"], 4, "cannot write this");
+}
