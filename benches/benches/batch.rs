@@ -237,7 +237,7 @@ fn main() {
                 "16 calls".into(),
                 Box::new(|s, out| {
                     for &(l, e) in &columns {
-                        fast.accumulate(&Shade(&ggx), (s.v(), (l, e)), out.get()).expect("one length");
+                        fast.accumulate(Shade(ggx), (s.v(), (l, e)), out.get()).expect("one length");
                     }
                 }),
             ),
@@ -255,7 +255,7 @@ fn main() {
                 "16 calls".into(),
                 Box::new(|s, out| {
                     for &(l, e) in &columns {
-                        best.accumulate(&Shade(&ggx), (s.v(), (l, e)), out.get()).expect("one length");
+                        best.accumulate(Shade(ggx), (s.v(), (l, e)), out.get()).expect("one length");
                     }
                 }),
             ),

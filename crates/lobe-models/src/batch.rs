@@ -139,11 +139,12 @@ pub(crate) struct Compiled<B>(B);
 
 impl<B> BatchBrdf for Compiled<B>
 where
-    B: Carry<
+    B: Copy
+        + Carry<
             In<Approximate<f32, Fast>>: Brdf<Approximate<f32, Fast>> + Send + Sync + 'static,
             In<Approximate<f32, Coarse>>: Brdf<Approximate<f32, Coarse>> + Send + Sync + 'static,
         >,
-    for<'a, 'b> Shade<'a, B>: AtEveryLevel<Precise, Inputs<'b>, Rgb<&'b mut [f32]>>
+    for<'b> Shade<B>: AtEveryLevel<Precise, Inputs<'b>, Rgb<&'b mut [f32]>>
         + AtEveryLevel<Fast, Inputs<'b>, Rgb<&'b mut [f32]>>
         + AtEveryLevel<Coarse, Inputs<'b>, Rgb<&'b mut [f32]>>,
 {
@@ -157,11 +158,11 @@ where
         out: Rgb<&mut [f32]>,
     ) -> Result<(), LengthError> {
         same_length(&[l.x, l.y, l.z, v.x, v.y, v.z, e.r, e.g, e.b, &*out.r, &*out.g, &*out.b])?;
-        let (batch, kernel) = (Batch::at(level), Shade(&self.0));
+        let (batch, kernel) = (Batch::at(level), Shade(self.0));
         match precision {
-            AnyPrecision::Precise => batch.accumulate(&kernel, (v, (l, e)), out),
-            AnyPrecision::Fast => batch.precision::<Fast>().accumulate(&kernel, (v, (l, e)), out),
-            AnyPrecision::Coarse => batch.precision::<Coarse>().accumulate(&kernel, (v, (l, e)), out),
+            AnyPrecision::Precise => batch.accumulate(kernel, (v, (l, e)), out),
+            AnyPrecision::Fast => batch.precision::<Fast>().accumulate(kernel, (v, (l, e)), out),
+            AnyPrecision::Coarse => batch.precision::<Coarse>().accumulate(kernel, (v, (l, e)), out),
         }
     }
 

@@ -68,11 +68,11 @@ impl Surface {
         let inputs = (v, (l, irradiance));
         let result = match self {
             Self::Black => Ok(()),
-            Self::Diffuse(lobes) => run(precision, &Shade(lobes), inputs, out),
-            Self::BlinnTorrance(lobes) => run(precision, &Shade(lobes), inputs, out),
-            Self::Phong(lobes) => run(precision, &Shade(lobes), inputs, out),
-            Self::NormalizedPhong(lobes) => run(precision, &Shade(lobes), inputs, out),
-            Self::NormalizedBlinnPhong(lobes) => run(precision, &Shade(lobes), inputs, out),
+            Self::Diffuse(lobes) => run(precision, Shade(*lobes), inputs, out),
+            Self::BlinnTorrance(lobes) => run(precision, Shade(*lobes), inputs, out),
+            Self::Phong(lobes) => run(precision, Shade(*lobes), inputs, out),
+            Self::NormalizedPhong(lobes) => run(precision, Shade(*lobes), inputs, out),
+            Self::NormalizedBlinnPhong(lobes) => run(precision, Shade(*lobes), inputs, out),
             Self::Lobes(lobes) => lobes.batch().shade(Batch::new().level(), precision, l, v, irradiance, out),
             Self::Other(lobes) => {
                 points.each(&**lobes, out);
@@ -86,7 +86,7 @@ impl Surface {
 /// A kernel, to a precision that is known at run time.
 fn run<'a, K, C: Columns>(
     precision: AnyPrecision,
-    kernel: &K,
+    kernel: K,
     inputs: C,
     out: Rgb<&'a mut [f32]>,
 ) -> Result<(), LengthError>

@@ -41,6 +41,14 @@ impl Carry for f32 {
     }
 }
 
+impl<T: Carry> Carry for &T {
+    type In<S: Real> = T::In<S>;
+    #[inline(always)]
+    fn carry<S: Real>(&self, lift: &impl Fn(f32) -> S) -> Self::In<S> {
+        T::carry(self, lift)
+    }
+}
+
 impl<T: Carry, const N: usize> Carry for [T; N] {
     type In<S: Real> = [T::In<S>; N];
     #[inline(always)]

@@ -6,22 +6,32 @@ use crate::{Brdf, Carry, Frame, Rgb, Vec3};
 /// What a batch computes for each point: `O` from `I`, structures of numbers.
 ///
 /// Write it over [`Real`], mark it `#[inline(always)]`, and it runs at every level and to every precision.
+///
+/// A batch copies it before its loop, so that what depends on nothing but its numbers is computed once: what is behind a
+/// reference might, for all that a compiler knows, be changed by every result that is written.
 pub trait Kernel<I, O> {
     /// The output of one point, or of one register full of them.
     fn apply(&self, input: I) -> O;
 }
 
+impl<K: Kernel<I, O> + ?Sized, I, O> Kernel<I, O> for &K {
+    #[inline(always)]
+    fn apply(&self, input: I) -> O {
+        K::apply(self, input)
+    }
+}
+
 /// [`eval`](Brdf::eval) of a lobe, for `(l, v)` in the local frame.
 #[derive(Clone, Copy, Debug)]
-pub struct Eval<'a, B>(pub &'a B);
+pub struct Eval<B>(pub B);
 
 /// [`eval_cos`](Brdf::eval_cos) of a lobe, for `(l, v)` in the local frame.
 #[derive(Clone, Copy, Debug)]
-pub struct EvalCos<'a, B>(pub &'a B);
+pub struct EvalCos<B>(pub B);
 
 /// `eval_cos(l, v) · E`, for `(v, (l, E))`: the radiance that a point sends to `v` for the irradiance `E` from `l`.
 #[derive(Clone, Copy, Debug)]
-pub struct Shade<'a, B>(pub &'a B);
+pub struct Shade<B>(pub B);
 
 /// A kernel of local directions, for directions in world space: `(n, l, v)` with the unit normal of each point, or
 /// `((n, tangent), l, v)` where the lobe is not the same all around.
@@ -33,7 +43,7 @@ pub struct InWorld<K>(pub K);
 #[derive(Clone, Copy, Debug)]
 pub struct OneChannel<K>(pub K);
 
-impl<B: Carry, R: Real> Kernel<(Vec3<R>, Vec3<R>), Rgb<R>> for Eval<'_, B>
+impl<B: Carry, R: Real> Kernel<(Vec3<R>, Vec3<R>), Rgb<R>> for Eval<B>
 where
     B::In<R>: Brdf<R>,
 {
@@ -43,7 +53,7 @@ where
     }
 }
 
-impl<B: Carry, R: Real> Kernel<(Vec3<R>, Vec3<R>), Rgb<R>> for EvalCos<'_, B>
+impl<B: Carry, R: Real> Kernel<(Vec3<R>, Vec3<R>), Rgb<R>> for EvalCos<B>
 where
     B::In<R>: Brdf<R>,
 {
@@ -53,7 +63,7 @@ where
     }
 }
 
-impl<B: Carry, R: Real> Kernel<(Vec3<R>, (Vec3<R>, Rgb<R>)), Rgb<R>> for Shade<'_, B>
+impl<B: Carry, R: Real> Kernel<(Vec3<R>, (Vec3<R>, Rgb<R>)), Rgb<R>> for Shade<B>
 where
     B::In<R>: Brdf<R>,
 {

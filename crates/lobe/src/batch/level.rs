@@ -91,7 +91,7 @@ const MAX_LANES: usize = 16;
 #[inline]
 fn run_from<F, P, K, C, O, const ADD: bool>(
     token: F::Token,
-    kernel: &K,
+    kernel: K,
     inputs: C,
     outputs: O,
     start: usize,
@@ -101,7 +101,7 @@ fn run_from<F, P, K, C, O, const ADD: bool>(
     P: Precision,
     C: Columns,
     O: ColumnsMut,
-    K: Kernel<C::At<P::Of<F>>, O::At<P::Of<F>>>,
+    K: Kernel<C::At<P::Of<F>>, O::At<P::Of<F>>> + Copy,
 {
     const { assert!(C::COUNT <= MAX_INPUTS && O::COUNT <= MAX_OUTPUTS, "too many slices in one batch") };
     let slices = collect(&inputs);
@@ -149,7 +149,7 @@ fn collect<C: Columns>(columns: &C) -> Slices<'_> {
 #[inline(never)]
 fn registers<F, P, K, C, O, const ADD: bool>(
     token: F::Token,
-    kernel: &K,
+    kernel: K,
     inputs: C,
     slices: &Slices<'_>,
     out: SlicesMut<'_>,
@@ -159,12 +159,13 @@ fn registers<F, P, K, C, O, const ADD: bool>(
     P: Precision,
     C: Columns,
     O: ColumnsMut,
-    K: Kernel<C::At<P::Of<F>>, O::At<P::Of<F>>>,
+    K: Kernel<C::At<P::Of<F>>, O::At<P::Of<F>>> + Copy,
 {
     F::run(
         token,
         #[inline(always)]
         move || {
+            let (kernel, inputs) = (kernel, inputs);
             // Said once, and slice by slice without a loop, so that the compiler knows it below: or it would check every
             // access for itself, nine jumps for each register.
             let mut known = true;
@@ -209,18 +210,12 @@ fn registers<F, P, K, C, O, const ADD: bool>(
 /// `out += Σ kernel(v, light)`: whole registers of points one after the other, each for all lights, and then what is left
 /// for one light after the other.
 #[inline]
-fn run_lights<F, P, K, L>(
-    token: F::Token,
-    kernel: &K,
-    v: Vec3<&[f32]>,
-    lights: &[L],
-    out: Rgb<&mut [f32]>,
-    count: usize,
-) where
+fn run_lights<F, P, K, L>(token: F::Token, kernel: K, v: Vec3<&[f32]>, lights: &[L], out: Rgb<&mut [f32]>, count: usize)
+where
     F: Register,
     P: Precision,
     L: Columns,
-    K: Kernel<(Vec3<P::Of<F>>, L::At<P::Of<F>>), Rgb<P::Of<F>>>,
+    K: Kernel<(Vec3<P::Of<F>>, L::At<P::Of<F>>), Rgb<P::Of<F>>> + Copy,
 {
     let rest = count % F::LANES;
     register_lights::<F, P, K, L>(token, kernel, v, lights, Rgb { r: out.r, g: out.g, b: out.b }, count / F::LANES);
@@ -236,7 +231,7 @@ fn run_lights<F, P, K, L>(
 #[inline(never)]
 fn register_lights<F, P, K, L>(
     token: F::Token,
-    kernel: &K,
+    kernel: K,
     v: Vec3<&[f32]>,
     lights: &[L],
     out: Rgb<&mut [f32]>,
@@ -245,12 +240,13 @@ fn register_lights<F, P, K, L>(
     F: Register,
     P: Precision,
     L: Columns,
-    K: Kernel<(Vec3<P::Of<F>>, L::At<P::Of<F>>), Rgb<P::Of<F>>>,
+    K: Kernel<(Vec3<P::Of<F>>, L::At<P::Of<F>>), Rgb<P::Of<F>>> + Copy,
 {
     F::run(
         token,
         #[inline(always)]
         move || {
+            let kernel = kernel;
             let v = v.map(
                 #[inline(always)]
                 |slice| F::arrays(slice),
@@ -293,20 +289,20 @@ fn copy(to: &mut [f32], from: &[f32]) {
 
 /// A [`Kernel`] that runs at every level of this architecture, to the precision `P`: every one that is written over
 /// [`Real`] does.
-pub trait AtEveryLevel<P: Precision, C: Columns, O: ColumnsMut>: Sealed<P, C, O> {}
+pub trait AtEveryLevel<P: Precision, C: Columns, O: ColumnsMut>: Sealed<P, C, O> + Copy {}
 
 /// A [`Kernel`] that runs so for many lights `L`.
-pub trait LightsAtEveryLevel<P: Precision, L: Columns>: SealedLights<P, L> {}
+pub trait LightsAtEveryLevel<P: Precision, L: Columns>: SealedLights<P, L> + Copy {}
 
 mod sealed {
     use super::{Columns, ColumnsMut, Level, Precision, Rgb, Vec3};
 
     pub trait Sealed<P: Precision, C: Columns, O: ColumnsMut> {
-        fn run_at<const ADD: bool>(&self, level: Level, inputs: C, outputs: O, count: usize);
+        fn run_at<const ADD: bool>(self, level: Level, inputs: C, outputs: O, count: usize);
     }
 
     pub trait SealedLights<P: Precision, L: Columns> {
-        fn lights_at(&self, level: Level, v: Vec3<&[f32]>, lights: &[L], out: Rgb<&mut [f32]>, count: usize);
+        fn lights_at(self, level: Level, v: Vec3<&[f32]>, lights: &[L], out: Rgb<&mut [f32]>, count: usize);
     }
 }
 pub(super) use sealed::{Sealed, SealedLights};
@@ -319,11 +315,11 @@ macro_rules! levels {
             P: Precision,
             C: Columns,
             O: ColumnsMut,
-            K: Kernel<C::At<P::Of<f32>>, O::At<P::Of<f32>>>,
+            K: Kernel<C::At<P::Of<f32>>, O::At<P::Of<f32>>> + Copy,
             $(K: Kernel<C::At<P::Of<$register>>, O::At<P::Of<$register>>>,)*
         {
             #[inline]
-            fn run_at<const ADD: bool>(&self, level: Level, inputs: C, outputs: O, count: usize) {
+            fn run_at<const ADD: bool>(self, level: Level, inputs: C, outputs: O, count: usize) {
                 match level {
                     $(Level::$variant(simd) => run_from::<$register, P, K, C, O, ADD>(simd, self, inputs, outputs, 0, count),)*
                     #[allow(unreachable_patterns, reason = "where the target has a level built in, lower ones do not exist")]
@@ -337,7 +333,7 @@ macro_rules! levels {
             P: Precision,
             C: Columns,
             O: ColumnsMut,
-            K: Kernel<C::At<P::Of<f32>>, O::At<P::Of<f32>>>,
+            K: Kernel<C::At<P::Of<f32>>, O::At<P::Of<f32>>> + Copy,
             $(K: Kernel<C::At<P::Of<$register>>, O::At<P::Of<$register>>>,)*
         {
         }
@@ -346,11 +342,11 @@ macro_rules! levels {
         where
             P: Precision,
             L: Columns,
-            K: Kernel<(Vec3<P::Of<f32>>, L::At<P::Of<f32>>), Rgb<P::Of<f32>>>,
+            K: Kernel<(Vec3<P::Of<f32>>, L::At<P::Of<f32>>), Rgb<P::Of<f32>>> + Copy,
             $(K: Kernel<(Vec3<P::Of<$register>>, L::At<P::Of<$register>>), Rgb<P::Of<$register>>>,)*
         {
             #[inline]
-            fn lights_at(&self, level: Level, v: Vec3<&[f32]>, lights: &[L], out: Rgb<&mut [f32]>, count: usize) {
+            fn lights_at(self, level: Level, v: Vec3<&[f32]>, lights: &[L], out: Rgb<&mut [f32]>, count: usize) {
                 match level {
                     $(Level::$variant(simd) => run_lights::<$register, P, K, L>(simd, self, v, lights, out, count),)*
                     #[allow(unreachable_patterns, reason = "where the target has a level built in, lower ones do not exist")]
@@ -363,7 +359,7 @@ macro_rules! levels {
         where
             P: Precision,
             L: Columns,
-            K: Kernel<(Vec3<P::Of<f32>>, L::At<P::Of<f32>>), Rgb<P::Of<f32>>>,
+            K: Kernel<(Vec3<P::Of<f32>>, L::At<P::Of<f32>>), Rgb<P::Of<f32>>> + Copy,
             $(K: Kernel<(Vec3<P::Of<$register>>, L::At<P::Of<$register>>), Rgb<P::Of<$register>>>,)*
         {
         }

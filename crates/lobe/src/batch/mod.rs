@@ -141,7 +141,7 @@ impl<P: Precision> Batch<P> {
     /// # Errors
     /// [`LengthError`] if the slices are not equally long; then nothing is written.
     #[inline]
-    pub fn run<K, C, O>(&self, kernel: &K, inputs: C, outputs: O) -> Result<(), LengthError>
+    pub fn run<K, C, O>(&self, kernel: K, inputs: C, outputs: O) -> Result<(), LengthError>
     where
         C: Columns,
         O: ColumnsMut,
@@ -157,7 +157,7 @@ impl<P: Precision> Batch<P> {
     /// # Errors
     /// As for [`run`](Self::run).
     #[inline]
-    pub fn accumulate<K, C, O>(&self, kernel: &K, inputs: C, outputs: O) -> Result<(), LengthError>
+    pub fn accumulate<K, C, O>(&self, kernel: K, inputs: C, outputs: O) -> Result<(), LengthError>
     where
         C: Columns,
         O: ColumnsMut,
@@ -173,17 +173,17 @@ impl<P: Precision> Batch<P> {
     /// # Errors
     /// As for [`run`](Self::run).
     #[inline]
-    pub fn eval<'a, B>(
+    pub fn eval<'a, B: Copy>(
         &self,
-        lobe: &'a B,
+        lobe: &B,
         l: Vec3<&'a [f32]>,
         v: Vec3<&'a [f32]>,
         out: Rgb<&'a mut [f32]>,
     ) -> Result<(), LengthError>
     where
-        Eval<'a, B>: AtEveryLevel<P, (Vec3<&'a [f32]>, Vec3<&'a [f32]>), Rgb<&'a mut [f32]>>,
+        Eval<B>: AtEveryLevel<P, (Vec3<&'a [f32]>, Vec3<&'a [f32]>), Rgb<&'a mut [f32]>>,
     {
-        self.run(&Eval(lobe), (l, v), out)
+        self.run(Eval(*lobe), (l, v), out)
     }
 
     /// [`eval_cos`](crate::Brdf::eval_cos) of each pair of directions.
@@ -191,17 +191,17 @@ impl<P: Precision> Batch<P> {
     /// # Errors
     /// As for [`run`](Self::run).
     #[inline]
-    pub fn eval_cos<'a, B>(
+    pub fn eval_cos<'a, B: Copy>(
         &self,
-        lobe: &'a B,
+        lobe: &B,
         l: Vec3<&'a [f32]>,
         v: Vec3<&'a [f32]>,
         out: Rgb<&'a mut [f32]>,
     ) -> Result<(), LengthError>
     where
-        EvalCos<'a, B>: AtEveryLevel<P, (Vec3<&'a [f32]>, Vec3<&'a [f32]>), Rgb<&'a mut [f32]>>,
+        EvalCos<B>: AtEveryLevel<P, (Vec3<&'a [f32]>, Vec3<&'a [f32]>), Rgb<&'a mut [f32]>>,
     {
-        self.run(&EvalCos(lobe), (l, v), out)
+        self.run(EvalCos(*lobe), (l, v), out)
     }
 
     /// Adds the light of all `lights` that each point sends to its viewer: `out += Σ eval_cos(lᵢ, v) Eᵢ`.
@@ -212,16 +212,16 @@ impl<P: Precision> Batch<P> {
     /// # Errors
     /// As for [`run`](Self::run); the slices of a light count as further inputs.
     #[inline]
-    pub fn shade_lights<'a, B, L>(
+    pub fn shade_lights<B: Copy, L>(
         &self,
-        lobe: &'a B,
+        lobe: &B,
         v: Vec3<&[f32]>,
         lights: &[L],
         out: Rgb<&mut [f32]>,
     ) -> Result<(), LengthError>
     where
         L: Columns,
-        Shade<'a, B>: LightsAtEveryLevel<P, L>,
+        Shade<B>: LightsAtEveryLevel<P, L>,
     {
         let expected = v.x.len();
         let mut index = 0;
@@ -233,7 +233,7 @@ impl<P: Precision> Batch<P> {
         v.visit(&mut check)?;
         lights.iter().try_for_each(|light| light.visit(&mut check))?;
         out.visit(&mut check)?;
-        Shade(lobe).lights_at(self.level, v, lights, out, expected);
+        Shade(*lobe).lights_at(self.level, v, lights, out, expected);
         Ok(())
     }
 }
