@@ -330,12 +330,15 @@ impl std::fmt::Debug for Bench {
     }
 }
 
+/// `l` and `v`.
+type Pair = (Vec3<f64>, Vec3<f64>);
+
 impl Bench {
     /// A bench for this effort.
     #[must_use]
     pub fn new(effort: Effort) -> Self {
         let pairs = pairs(effort.pairs.max(1));
-        let columns = |of: fn(&(Vec3<f64>, Vec3<f64>)) -> Vec3<f64>| {
+        let columns = |of: fn(&Pair) -> Vec3<f64>| {
             [|w: Vec3<f64>| w.x, |w: Vec3<f64>| w.y, |w: Vec3<f64>| w.z]
                 .map(|c| pairs.iter().map(|pair| c(of(pair)) as f32).collect())
         };

@@ -24,7 +24,7 @@ pub(crate) struct Sphere {
 
 /// Above on the left, from the right, and from behind, where lobes are met at grazing angles; with their irradiances.
 const LIGHTS: [([f32; 3], f32); 3] =
-    [([-0.48, 0.6, 0.64], 1.0), ([0.8, -0.1, 0.591_608], 0.4), ([0.5, 0.5, -0.707_106_8], 0.8)];
+    [([-0.48, 0.6, 0.64], 1.0), ([0.8, -0.1, 0.591_608], 0.4), ([0.5, 0.5, -std::f32::consts::FRAC_1_SQRT_2], 0.8)];
 
 impl Sphere {
     /// A sphere of `size` by `size` pixels, seen from far away.

@@ -23,7 +23,8 @@ fn a_sweep_finds_what_must_not_be() {
     let [exp2, .., recip, _] = FUNCTIONS else { panic!("the first and the last but one are known") };
     assert_eq!((exp2.name, recip.name), ("exp2", "recip"));
     let way = &ways(&PRECISIONS)[..1];
-    let wrong: [fn(&[f32], &mut [f32]); 3] = [
+    type Lanes = fn(&[f32], &mut [f32]);
+    let wrong: [Lanes; 3] = [
         // A NaN and an infinity from a finite argument, 0 where the result is a normal number.
         |_, out| out.fill(f32::NAN),
         |x, out| x.iter().zip(out).for_each(|(&x, out)| *out = if x == 1.0 { f32::INFINITY } else { x.exp2() }),

@@ -160,7 +160,7 @@ fn slices_of_other_lengths_are_an_error_and_nothing_is_written() {
     assert_eq!(error, LengthError { index: 4, length: 19, expected: 20 });
     assert_eq!(error.to_string(), "slice 4 of the batch has 19 numbers, slice 0 has 20; all must be equally long");
     out[2].pop();
-    let error = batch.accumulate(&EvalCos(&lobe), (l, l), colours(&mut out)).unwrap_err();
+    let error = batch.accumulate(EvalCos(&lobe), (l, l), colours(&mut out)).unwrap_err();
     assert_eq!(error, LengthError { index: 8, length: 19, expected: 20 });
     out[2].push(7.0);
     let light = (v, Rgb::new(Uniform(1.0), Uniform(1.0), Uniform(1.0)));
@@ -206,13 +206,13 @@ fn world_space_one_channel_and_accumulation() {
     let t = Vec3::new(1.0_f32, 0.0, 0.0);
     let (normal, tangent) = (n.map(Uniform), t.map(Uniform));
     let mut out = [vec![0.0; 21], vec![0.0; 21], vec![0.0; 21]];
-    let mut grey = vec![1.0; 21];
+    let mut grey = [1.0; 21];
     let batch = Batch::new();
     batch
-        .run(&InWorld(Eval(&lobe)), ((normal, tangent), slices(&l), slices(&v)), colours(&mut out))
+        .run(InWorld(Eval(&lobe)), ((normal, tangent), slices(&l), slices(&v)), colours(&mut out))
         .expect("one length");
     batch
-        .accumulate(&OneChannel(InWorld(Eval(&lobe))), (normal, slices(&l), slices(&v)), &mut grey[..])
+        .accumulate(OneChannel(InWorld(Eval(&lobe))), (normal, slices(&l), slices(&v)), &mut grey[..])
         .expect("one length");
     for (i, &(l, v)) in pairs.iter().enumerate() {
         let frame = Frame::from_normal_tangent(n, t);
