@@ -75,17 +75,26 @@ pub(crate) fn run(args: &TradeArgs, quiet: bool, json: bool) -> Result<(), Failu
 fn subjects(args: &TradeArgs) -> Result<Vec<Subject>, Failure> {
     if let Some(path) = &args.scene {
         let scene = render::open(Some(path), None)?;
-        let materials: Vec<_> = scene
-            .materials
-            .iter()
-            .filter_map(|material| of_surface(&material.name, &material.surface))
-            .map(|material| Subject::of_material(&material))
-            .collect();
+        // As the views show them: what one puts in the place of a material is a material of the scene too.
+        let mut materials: Vec<Material> = Vec::new();
+        for view in &scene.views {
+            for material in view.materials_of(&scene.materials).iter() {
+                let Some(mut lobes) = of_surface(&material.name, &material.surface) else { continue };
+                let known = |lobes: &Material| materials.iter().any(|m| m.name == lobes.name && m.lobes == lobes.lobes);
+                if known(&lobes) {
+                    continue;
+                }
+                if materials.iter().any(|other| other.name == lobes.name) {
+                    lobes.name = format!("{}, view {}", lobes.name, view.name);
+                }
+                materials.push(lobes);
+            }
+        }
         if materials.is_empty() {
             let path = path.display();
             return Err(Failure::Input(format!("{path}: no material of this scene has lobes; give one that reflects")));
         }
-        return Ok(materials);
+        return Ok(materials.iter().map(Subject::of_material).collect());
     }
     let all = catalogue();
     let Some(name) = &args.only else { return Ok(all) };

@@ -86,7 +86,7 @@ fn what_is_wrong_is_said() {
         assert!(text(&run.stderr).contains(message), "{arguments:?}: {}", text(&run.stderr));
     };
     fails(&["trade", "none.json"], 3, "none.json: cannot read this file");
-    for budget in ["2", "1/0", "-1/255", "some"] {
+    for budget in ["2", "1/0", "-0.1", "some"] {
         fails(&["trade", "scene.json", "--budget", budget], 2, "a part of white from 0 to 1, such as 1/255 or 0.01");
     }
     fails(&["trade", "--budget", "1/255"], 2, "required");

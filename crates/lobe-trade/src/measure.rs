@@ -194,6 +194,9 @@ pub fn is_noisy(rows: &[Row]) -> bool {
     4 * unsteady > rows.len()
 }
 
+/// The directions to the light and to the viewer.
+type Pair = (Vec3<f64>, Vec3<f64>);
+
 /// Directions, irradiances and results of some points.
 #[derive(Clone)]
 struct Points<R> {
@@ -205,7 +208,7 @@ struct Points<R> {
 
 impl<R: Scalar> Points<R> {
     /// The pairs from `first` on, over and over.
-    fn new(pairs: &[(Vec3<f64>, Vec3<f64>)], first: usize, count: usize) -> Self {
+    fn new(pairs: &[Pair], first: usize, count: usize) -> Self {
         let numbers = |of: &dyn Fn(usize) -> f64| (0..count).map(|i| R::from_f64(of(i))).collect::<Vec<_>>();
         let pair = |i: usize| pairs[(first + i) % pairs.len()];
         let vector =
@@ -256,7 +259,7 @@ struct Buffers<R> {
 }
 
 impl<R: Scalar> Buffers<R> {
-    fn new(pairs: &[(Vec3<f64>, Vec3<f64>)], stream: usize) -> Self {
+    fn new(pairs: &[Pair], stream: usize) -> Self {
         let resident = (0..BUFFERS).map(|i| Points::new(pairs, i * POINTS, POINTS)).collect();
         // Nine numbers are read for a point and three written.
         Self { resident, stream: Points::new(pairs, 0, stream / (12 * size_of::<R>())) }
@@ -591,7 +594,7 @@ impl Quadrature {
 }
 
 /// Pairs of directions above the horizon; every other one near the mirror direction of its viewer. Numbers of `f32`.
-fn pairs(count: usize) -> Vec<(Vec3<f64>, Vec3<f64>)> {
+fn pairs(count: usize) -> Vec<Pair> {
     let mut bits = 1_u32;
     let mut random = move || {
         // Numerical Recipes' generator; its high bits will do.

@@ -4,6 +4,7 @@ use lobe::distribution::{Beckmann, Distribution, Ggx, SmithLambda};
 use lobe::masking::{
     Hammon, Implicit, Kelemen, Masking, Neumann, RationalBeckmann, SchlickGgx, SmithCorrelated, SmithSeparable, VCavity,
 };
+use lobe::number::{Approximate, Fast};
 use lobe::{Alpha, Vec3};
 use lobe_verify::strategies::pair_above;
 use proptest::prelude::*;
@@ -65,6 +66,37 @@ fn as_published() {
             if a < 1.6 { (3.535 * a + 2.181 * a * a) / (1.0 + 2.276 * a + 2.577 * a * a) } else { 1.0 }
         };
         check("rational", of(RationalBeckmann::new(Alpha(alpha)), alpha), g1(nl) * g1(nv));
+    }
+}
+
+/// The powers of two that formulas scale by are other ones in numbers that trade digits: each form takes out what it has
+/// put in.
+#[test]
+fn scales_cancel_in_every_precision() {
+    type Number = Approximate<f32, Fast>;
+    let rough = |w: Vec3<f64>| w.map(|c| Number::new(c as f32));
+    let (l, v) = (direction(0.4, 0.0), direction(1.1, 2.0));
+    let (h, vh) = half(l, v);
+    let alpha = Alpha(0.3_f64);
+    let (d, near) = (Ggx::new(alpha), Ggx::new(Alpha(Number::new(0.3))));
+    macro_rules! check {
+        ($($g:expr, $rough:expr;)+) => {$(
+            let exact = $g.visibility(&d, l, v, h, vh, 1.0);
+            let found = $rough.visibility(&near, rough(l), rough(v), rough(h), Number::new(vh as f32), Number::new(1.0));
+            assert!((f64::from(found.value()) / exact - 1.0).abs() < 2e-3, "{}: {exact} {found:?}", stringify!($g));
+        )+};
+    }
+    let width = Alpha(Number::new(0.3));
+    check! {
+        SmithCorrelated, SmithCorrelated;
+        SmithSeparable, SmithSeparable;
+        VCavity, VCavity;
+        Implicit, Implicit;
+        Neumann, Neumann;
+        Kelemen, Kelemen;
+        Hammon::new(alpha), Hammon::new(width);
+        SchlickGgx::half(alpha), SchlickGgx::half(width);
+        RationalBeckmann::new(alpha), RationalBeckmann::new(width);
     }
 }
 

@@ -62,7 +62,7 @@ impl<R: Real, D> Masking<R, D> for RationalBeckmann<R> {
         let scale = weight.lift(R::ROOT_SCALE);
         // The square of a width of 1e-4 below the horizon of a small cosine: scaled, the product stays a normal number.
         Quotient::new(
-            (weight.times(0.25 * R::SCALE)) * (l.numerator * v.numerator),
+            (weight.times(0.25 * R::ROOT_SCALE * R::ROOT_SCALE)) * (l.numerator * v.numerator),
             (l.denominator * scale) * (v.denominator * scale),
         )
     }
