@@ -100,7 +100,7 @@ impl Effort {
             rounds: 15,
             block: Duration::from_micros(150),
             stream: 64 << 20,
-            stream_rounds: 3,
+            stream_rounds: 2,
             parallel: Duration::from_millis(10),
             pairs: 4096,
             sphere: 96,
