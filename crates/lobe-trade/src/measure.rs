@@ -333,9 +333,6 @@ impl std::fmt::Debug for Bench {
     }
 }
 
-/// `l` and `v`.
-type Pair = (Vec3<f64>, Vec3<f64>);
-
 impl Bench {
     /// A bench for this effort.
     #[must_use]
