@@ -288,7 +288,7 @@ fn copy(to: &mut [f32], from: &[f32]) {
 }
 
 /// A [`Kernel`] that runs at every level of this architecture, to the precision `P`: every one that is written over
-/// [`Real`] does.
+/// [`Real`](crate::Real) does.
 pub trait AtEveryLevel<P: Precision, C: Columns, O: ColumnsMut>: Sealed<P, C, O> + Copy {}
 
 /// A [`Kernel`] that runs so for many lights `L`.

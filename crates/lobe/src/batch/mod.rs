@@ -21,7 +21,7 @@
 //!
 //! Anything that is made of slices ([`Columns`]): `&[f32]` is a number for each point, `Vec3<&[f32]>` a direction,
 //! `Rgb<&[f32]>` a colour, [`Uniform`] the same number for all, and tuples of these. What is computed is a [`Kernel`],
-//! written once over [`Real`] like every formula of this crate: [`Eval`], [`EvalCos`], [`Shade`], [`InWorld`], or one of
+//! written once over [`Real`](crate::Real) like every formula of this crate: [`Eval`], [`EvalCos`], [`Shade`], [`InWorld`], or one of
 //! yours. So a textured material is a kernel that builds its lobe from what comes in:
 //!
 //! ```
@@ -51,7 +51,7 @@
 //!
 //! # Precision
 //!
-//! [`Precise`](crate::number::Precise) lanes give the bits of the scalar `f32`, at every level.
+//! [`Precise`] lanes give the bits of the scalar `f32`, at every level.
 //! [`Fast`](crate::number::Fast) and [`Coarse`](crate::number::Coarse) trade digits for speed; `docs/trade.md` has the
 //! measured table of all lobes.
 //!
