@@ -4,7 +4,7 @@ use lobe::Real;
 use lobe::batch::{Batch, Kernel, Level};
 
 /// It calls a function for each register.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Calls;
 
 #[inline(never)]
@@ -20,7 +20,7 @@ impl<R: Real> Kernel<R, R> for Calls {
 }
 
 /// It needs more registers than there are: 64 numbers, each of which is needed again after all of them were.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Spills;
 
 macro_rules! all_needed_twice {
@@ -50,10 +50,10 @@ impl<R: Real> Kernel<R, R> for Spills {
 
 /// Runs one of them.
 pub fn calls(level: Level, x: &[f32], out: &mut [f32]) {
-    Batch::at(level).run(&Calls, x, out).expect("the slices are equally long");
+    Batch::at(level).run(Calls, x, out).expect("the slices are equally long");
 }
 
 /// Runs the other one.
 pub fn spills(level: Level, x: &[f32], out: &mut [f32]) {
-    Batch::at(level).run(&Spills, x, out).expect("the slices are equally long");
+    Batch::at(level).run(Spills, x, out).expect("the slices are equally long");
 }

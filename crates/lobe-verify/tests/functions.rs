@@ -87,7 +87,8 @@ proptest! {
     #[test]
     fn log2_1p_div_keeps_its_bound_below_zero(a in 0.0_f32..1.0, exponent in -60..60_i32) {
         let b = (exponent as f32).exp2();
-        prop_assert!(relative_error_of_log2_1p_div(-a * b, b) <= 5.0, "log2(1 − {a})");
+        // 5.297 at −0.25129586, the worst of all floats around: just below 3/4 the integer −1 cancels most of the rest.
+        prop_assert!(relative_error_of_log2_1p_div(-a * b, b) <= 5.5, "log2(1 − {a})");
     }
 }
 

@@ -193,7 +193,7 @@ pub fn log2_1p<F: Binary32>(x: F) -> F {
 const TWO_POW_64: f64 = 18_446_744_073_709_551_616.0;
 const TWO_POW_MINUS_30: f64 = 1.0 / 1_073_741_824.0;
 
-/// `log₂(1 + a/b)` with one division and a relative error of at most 5·2⁻²⁴, for `a ≥ 0`, or for any `a > −b` if `b` is
+/// `log₂(1 + a/b)` with one division and a relative error of at most 5·2⁻²⁴, for `a ≥ 0`, or of 5.5·2⁻²⁴ for any `a > −b` if `b` is
 /// a power of two; `b` and `a + b` from the smallest normal number to 2¹²⁷.
 ///
 /// With `2ᵏ` so that `(a + b)/(b 2ᵏ)` is near 1, `s = (a + b − b 2ᵏ)/(a + b + b 2ᵏ)` and

@@ -119,7 +119,7 @@ pub trait Real:
     /// denominator is a power of two.
     ///
     /// With one division, and without forming the quotient, which may leave the range of the type: this is
-    /// `log₂(1 + tan²θ)` down to the horizon. In `f32`: a relative error of at most 5·2⁻²⁴, for
+    /// `log₂(1 + tan²θ)` down to the horizon. In `f32`: a relative error of at most 5·2⁻²⁴ (below 0 5.5·2⁻²⁴), for
     /// `denominator` and `self + denominator` from the smallest normal number to 2¹²⁷.
     fn log2_1p_div(self, denominator: Self) -> Self;
     /// `2^self` where the mask is true, 0 elsewhere. In `f32` a NaN in `self` gives 0 too: whoever must keep it adds
