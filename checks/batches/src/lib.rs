@@ -1,5 +1,5 @@
-//! Batch kernels: what `tests/assembly.rs` reads the machine code of, and what the binary runs, so that
-//! `checks/batches/instructions` can count its instructions.
+//! Batch kernels: what `tests/assembly.rs` reads the machine code of, and what the example runs, so
+//! that `checks/batches/instructions` can count its instructions.
 
 pub mod mutants;
 

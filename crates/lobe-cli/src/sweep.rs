@@ -60,7 +60,7 @@ impl RoughOutcome {
         json!({
             "function": self.function.name,
             "precision": self.way.precision,
-            "level": self.way.level_name(),
+            "level": self.way.name,
             "tried": self.worst.tried,
             "worst_relative": number(self.worst.error),
             "allowed_relative": self.allowed,
@@ -138,7 +138,7 @@ pub(crate) fn run(args: &SweepArgs, quiet: bool, json: bool) -> Result<(), Failu
             }
             list.push(outcome.to_json());
             if !outcome.holds() {
-                broken.push(format!("{} ({}, {})", function.name, outcome.way.precision, outcome.way.level_name()));
+                broken.push(format!("{} ({}, {})", function.name, outcome.way.precision, outcome.way.name));
             }
         }
     }
@@ -189,7 +189,7 @@ fn rough_row(outcome: &RoughOutcome) -> String {
         "{:<12}  {:<9}  {:<7} {:>11}  {:>16.3e}  {:>7.1e}  {:<7}  {:?} (0x{:08x})\n",
         outcome.function.name,
         outcome.way.precision,
-        outcome.way.level_name(),
+        outcome.way.name,
         worst.tried,
         worst.error,
         outcome.allowed,
@@ -200,11 +200,11 @@ fn rough_row(outcome: &RoughOutcome) -> String {
 }
 
 fn rough_markdown_head(ways: &[rough::Way]) -> String {
-    let mut levels: Vec<_> = ways.iter().map(rough::Way::level_name).collect();
+    let mut levels: Vec<_> = ways.iter().map(|way| way.name).collect();
     let mut seen = Vec::new();
     levels.retain(|level| {
         let new = !seen.contains(level);
-        seen.push(level.clone());
+        seen.push(*level);
         new
     });
     let rules = "---|".repeat(levels.len());

@@ -6,10 +6,11 @@ use crate::output;
 use crate::plot::{Dot, pareto};
 use crate::progress::Progress;
 use crate::render;
+use lobe::batch::{Level, levels};
 use lobe::{Rgb, Shininess};
 use lobe_models::{Lobe, Material, Value, model, nearest};
 use lobe_scene::{Surface, check_writable};
-use lobe_trade::{Bench, Effort, Number, Row, Subject, catalogue, is_noisy, levels};
+use lobe_trade::{Bench, Effort, Number, Row, Subject, catalogue, is_noisy};
 use serde_json::json;
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -135,7 +136,7 @@ fn of_surface(name: &str, surface: &Surface) -> Option<Material> {
 /// The machine, as far as it matters for a time: no name of a host.
 fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let names: Vec<_> = levels().into_iter().map(|(name, _)| name).collect();
+    let names: Vec<_> = levels(Level::new()).map(|(name, _)| name).collect();
     let s = if cores == 1 { "" } else { "s" };
     format!("{}, {cores} core{s}, {}\n", processor(), names.join(", "))
 }
@@ -279,7 +280,7 @@ fn facts(all: &[Vec<Row>], budget: Option<f64>) -> serde_json::Value {
             Some(fact)
         })
         .collect();
-    let names: Vec<_> = levels().into_iter().map(|(name, _)| name).collect();
+    let names: Vec<_> = levels(Level::new()).map(|(name, _)| name).collect();
     json!({
         "processor": processor(),
         "cores": std::thread::available_parallelism().map_or(1, usize::from),

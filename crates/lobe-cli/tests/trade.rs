@@ -35,7 +35,7 @@ fn the_table_has_every_number_and_every_approximation() {
     for name in ["    f64 ", "    f32 ", "    fast ", "    coarse ", "Schlick for Fresnel", "Blinn-Phong for GGX"] {
         assert!(table.contains(name), "{name}: {table}");
     }
-    let numbers = 4 + 3 * lobe_trade::levels().len();
+    let numbers = 4 + 3 * lobe::batch::levels(lobe::batch::Level::new()).count();
     let csv = fs::read_to_string(folder.path().join("t.csv")).expect("a file");
     let forms = csv.lines().filter(|line| line.contains(",f64,")).count();
     assert_eq!((forms, csv.lines().count()), (7, 1 + 7 * numbers));

@@ -4,7 +4,7 @@
 #[path = "common/lobes.rs"]
 mod lobes;
 
-use lobe::batch::{LengthError, Level};
+use lobe::batch::{self, LengthError, Level};
 use lobe::number::{Approximate, Fast};
 use lobe::{Rgb, Vec3};
 use lobe_models::{AnyBatch, AnyPrecision, Kind, Lobe, Material, Value, model, models};
@@ -12,18 +12,9 @@ use lobe_verify::strategies::pair_above;
 use proptest::strategy::{Strategy as _, ValueTree as _};
 use proptest::test_runner::TestRunner;
 
-/// Every level that the machine has, from the lowest.
-fn levels() -> Vec<Level> {
-    let newest = Level::new();
-    let mut all = vec![Level::baseline()];
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    {
-        all.extend(newest.as_sse4_2().map(Level::Sse4_2));
-        all.extend(newest.as_avx2().map(Level::Avx2));
-        all.extend(newest.as_avx512().map(Level::Avx512));
-    }
-    all.push(newest);
-    all
+/// The scalar, and every level that the machine has.
+fn levels() -> impl Iterator<Item = Level> {
+    std::iter::once(Level::baseline()).chain(batch::levels(Level::new()).map(|(_, level)| level))
 }
 
 /// Pairs of directions as slices.
@@ -144,7 +135,7 @@ const ROUGH: [AnyPrecision; 2] = [AnyPrecision::Fast, AnyPrecision::Coarse];
 
 fn stable(lobe: &Lobe, pairs: &Pairs) -> Result<(), String> {
     let batch = lobe.batch();
-    for (level, precision) in levels().into_iter().flat_map(|level| ROUGH.map(|precision| (level, precision))) {
+    for (level, precision) in levels().flat_map(|level| ROUGH.map(|precision| (level, precision))) {
         let found = pairs.eval_cos(&batch, level, precision, pairs.pairs.len());
         if let Some(i) = found.iter().position(|f| f.iter().any(|c| !(c.is_finite() && *c >= 0.0))) {
             return Err(format!("{level:?}, {precision}: {:?} at {:?}", found[i], pairs.pairs[i]));
@@ -180,7 +171,7 @@ fn rough_batches_are_zero_below_the_horizon_and_keep_a_nan() {
     );
     for_lobes(10, |lobe| {
         let batch = lobe.batch();
-        for (level, precision) in levels().into_iter().flat_map(|level| ROUGH.map(|precision| (level, precision))) {
+        for (level, precision) in levels().flat_map(|level| ROUGH.map(|precision| (level, precision))) {
             for (pairs, good) in [(&below, (|c| c == 0.0) as fn(f32) -> bool), (&poisoned, f32::is_nan)] {
                 let found = pairs.eval_cos(&batch, level, precision, pairs.pairs.len());
                 if let Some(i) = found.iter().position(|f| !f.iter().all(|&c| good(c))) {

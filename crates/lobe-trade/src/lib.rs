@@ -44,6 +44,6 @@ mod measure;
 mod picture;
 mod subject;
 
-pub use measure::{Bench, Effort, Errors, Number, Quartiles, Row, is_noisy, levels};
+pub use measure::{Bench, Effort, Errors, Number, Quartiles, Row, is_noisy};
 pub use picture::Seen;
 pub use subject::{Form, Subject, catalogue};

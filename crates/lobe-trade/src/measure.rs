@@ -2,7 +2,7 @@
 
 use crate::picture::{Seen, Sphere, compare, exposure, picture};
 use crate::subject::Subject;
-use lobe::batch::Level;
+use lobe::batch::{Level, levels};
 use lobe::number::{Approximate, Coarse, Fast};
 use lobe::{Rgb, Vec3};
 use lobe_models::{AnyBatch, AnyBrdf, AnyPrecision, Material, Number as Scalar};
@@ -39,7 +39,7 @@ impl Number {
         let lanes = |(name, level)| AnyPrecision::ALL.map(|precision| Self::Lanes { level, name, precision });
         [Self::F64, Self::F32, Self::Fast, Self::Coarse]
             .into_iter()
-            .chain(levels().into_iter().flat_map(lanes))
+            .chain(levels(Level::new()).flat_map(lanes))
             .collect()
     }
 
@@ -54,23 +54,6 @@ impl Number {
             Self::Lanes { name, precision, .. } => format!("{name} {precision}"),
         }
     }
-}
-
-/// The SIMD levels that this machine has, from the lowest, with their names.
-#[must_use]
-pub fn levels() -> Vec<(&'static str, Level)> {
-    let newest = Level::new();
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    return [
-        newest.as_sse4_2().map(|simd| ("sse4.2", Level::Sse4_2(simd))),
-        newest.as_avx2().map(|simd| ("avx2", Level::Avx2(simd))),
-        newest.as_avx512().map(|simd| ("avx512", Level::Avx512(simd))),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
-    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-    vec![("lanes", newest)]
 }
 
 /// How long and how closely is looked.
@@ -643,7 +626,7 @@ mod tests {
         assert_eq!((find("f64").error.worst, find("f64").seen), (0.0, Seen::default()));
         let f32 = find("f32");
         assert!(f32.error.worst > 0.0 && f32.error.worst < 2e-5 && f32.seen.steps <= 1);
-        for (name, _) in levels() {
+        for (name, _) in levels(Level::new()) {
             let [precise, fast, coarse] = ["precise", "fast", "coarse"].map(|p| find(&format!("{name} {p}")).error.p99);
             assert_eq!(precise, f32.error.p99, "{name}");
             assert!(precise < fast && fast <= coarse && coarse < 0.02, "{name}: {fast} {coarse}");

@@ -6,7 +6,7 @@
 
 use crate::sweep::{boundaries, in_turns};
 use lobe::Real;
-use lobe::batch::{Batch, Kernel, Level};
+use lobe::batch::{Batch, Kernel, Level, levels};
 use lobe::number::{Approximate, Coarse, Fast, Precision as _};
 use rayon::prelude::*;
 
@@ -197,31 +197,17 @@ pub const PRECISIONS: [&str; 2] = [Fast::NAME, Coarse::NAME];
 pub struct Way {
     /// [`Fast::NAME`] or [`Coarse::NAME`].
     pub precision: &'static str,
+    /// `scalar`, or the name of the SIMD level.
+    pub name: &'static str,
     /// The SIMD level; `None` for the scalar.
     pub level: Option<Level>,
 }
 
-impl Way {
-    /// The level in words.
-    pub fn level_name(&self) -> String {
-        let name = |level| format!("{level:?}").split('(').next().unwrap_or_default().to_lowercase();
-        self.level.map_or_else(|| "scalar".to_owned(), name)
-    }
-}
-
 /// The scalar, and every SIMD level that the machine has, at each of the precisions.
 pub fn ways(precisions: &[&'static str]) -> Vec<Way> {
-    let newest = Level::new();
-    let mut levels = vec![None];
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    {
-        levels.extend(newest.as_sse4_2().map(|level| Some(Level::Sse4_2(level))));
-        levels.extend(newest.as_avx2().map(|level| Some(Level::Avx2(level))));
-        levels.extend(newest.as_avx512().map(|level| Some(Level::Avx512(level))));
-    }
-    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-    levels.push(Some(newest));
-    let of = |&precision: &&'static str| levels.clone().into_iter().map(move |level| Way { precision, level });
+    let levels = levels(Level::new()).map(|(name, level)| (name, Some(level)));
+    let levels = std::iter::once(("scalar", None)).chain(levels);
+    let of = |&precision: &&'static str| levels.clone().map(move |(name, level)| Way { precision, name, level });
     precisions.iter().flat_map(of).collect()
 }
 

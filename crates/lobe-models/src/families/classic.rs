@@ -10,7 +10,7 @@ const KS: Parameter = Parameter::reflectance("ks", "the reflectance of the lobe"
 /// `docs/numerics.md`, "The half-vector lobe".
 const HALF_VECTOR: Bound = Bound::Derived { formula: "u (14 + 14 L)", at: half_vector };
 /// `docs/numerics.md`, "The mirror lobe".
-const MIRROR: Bound = Bound::Derived { formula: "u (7 + 6 L + 5 q (1/(r·v) - 1))", at: mirror };
+const MIRROR: Bound = Bound::Derived { formula: "u (7 + 6.5 L + 5 q (1/(r·v) - 1))", at: mirror };
 
 pub(super) const MODELS: &[Model] = &[
     model! {
@@ -89,5 +89,5 @@ fn mirror(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     let c = 1.0 - 0.5 * d.dot(d);
     let depth = -q * c.ln();
     // Below 2⁻¹² the relative error of r·v itself is no longer small, and the first order ends.
-    if c > 1.0 / 4096.0 && depth < END { U * (7.0 + 6.0 * depth + 5.0 * q * (1.0 / c - 1.0)) } else { f64::INFINITY }
+    if c > 1.0 / 4096.0 && depth < END { U * (7.0 + 6.5 * depth + 5.0 * q * (1.0 / c - 1.0)) } else { f64::INFINITY }
 }

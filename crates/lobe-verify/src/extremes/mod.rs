@@ -28,8 +28,8 @@ use std::fmt;
 /// Nor are those that only a cosine near 0 in the denominator lifts above it: the larger cosine times `f_r` is below it.
 pub const DARK: f64 = 1e-30;
 
-/// Where both cosines are below this, `D` of a half vector that is not normalised may have no digits left.
-const OPPOSITE: f32 = 1e-32;
+/// Where all components of `l + v` are below this, `D` of a half vector that is not normalised may have no digits left.
+const OPPOSITE: f32 = 2e-32;
 
 /// The target for the 99th percentile of a model whose bound is constant.
 pub const TARGET_99: f64 = 4e-6;
@@ -345,10 +345,12 @@ impl Subject<'_> {
         both(Quantity::EvalCos, self.single.eval_cos(l, v), self.double.eval_cos(wide_l, wide_v));
     }
 
-    /// The bound of the model there; none where both directions are so near the horizon that the half vector of opposite
-    /// ones has squares below the smallest normal number. They are looked at for what is not finite or negative.
+    /// The bound of the model there; none where the directions are so nearly opposite, at the horizon, that their sum has
+    /// squares below the smallest normal number. They are looked at for what is not finite or negative.
     fn bound_at(&self, (l, v): (Vec3, Vec3)) -> f64 {
-        if l.z.max(v.z) < OPPOSITE { f64::INFINITY } else { (self.bound)(l.map(f64::from), v.map(f64::from)) }
+        let s = (l + v).map(f32::abs);
+        let opposite = s.x.max(s.y).max(s.z) < OPPOSITE;
+        if opposite { f64::INFINITY } else { (self.bound)(l.map(f64::from), v.map(f64::from)) }
     }
 
     /// Looks at one pair.

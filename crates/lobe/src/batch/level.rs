@@ -290,9 +290,11 @@ fn copy(to: &mut [f32], from: &[f32]) {
 /// A [`Kernel`] that runs at every level of this architecture, to the precision `P`: every one that is written over
 /// [`Real`](crate::Real) does.
 pub trait AtEveryLevel<P: Precision, C: Columns, O: ColumnsMut>: Sealed<P, C, O> + Copy {}
+impl<P: Precision, C: Columns, O: ColumnsMut, K: Sealed<P, C, O> + Copy> AtEveryLevel<P, C, O> for K {}
 
 /// A [`Kernel`] that runs so for many lights `L`.
 pub trait LightsAtEveryLevel<P: Precision, L: Columns>: SealedLights<P, L> + Copy {}
+impl<P: Precision, L: Columns, K: SealedLights<P, L> + Copy> LightsAtEveryLevel<P, L> for K {}
 
 mod sealed {
     use super::{Columns, ColumnsMut, Level, Precision, Rgb, Vec3};
@@ -307,9 +309,23 @@ mod sealed {
 }
 pub(super) use sealed::{Sealed, SealedLights};
 
-/// The levels of an architecture, from the best; a level that is not among them runs the scalar.
+/// The levels of an architecture, from the lowest; a level that is not among them runs the scalar.
 macro_rules! levels {
-    ($($variant:ident => $register:ty, $lanes:literal);*) => {
+    ($($variant:ident $name:literal $from:ident => $register:ty, $lanes:literal);*) => {
+        /// The levels with lanes of a machine whose best level is `best`, from the lowest, each with its name: `sse4.2`,
+        /// `avx2` and `avx512`, or `neon`, or `simd128`. None where batches run the scalar formula.
+        ///
+        /// ```
+        /// use lobe::batch::{Level, levels};
+        /// for (name, level) in levels(Level::new()) {
+        ///     println!("{name}: {level:?}");
+        /// }
+        /// ```
+        pub fn levels(best: Level) -> impl Iterator<Item = (&'static str, Level)> + Clone {
+            let _ = best;
+            [$(best.$from().map(|simd| ($name, Level::$variant(simd)))),*].into_iter().flatten()
+        }
+
         impl<P, C, O, K> Sealed<P, C, O> for K
         where
             P: Precision,
@@ -326,16 +342,6 @@ macro_rules! levels {
                     _ => run_from::<f32, P, K, C, O, ADD>((), self, inputs, outputs, 0, count),
                 }
             }
-        }
-
-        impl<P, C, O, K> AtEveryLevel<P, C, O> for K
-        where
-            P: Precision,
-            C: Columns,
-            O: ColumnsMut,
-            K: Kernel<C::At<P::Of<f32>>, O::At<P::Of<f32>>> + Copy,
-            $(K: Kernel<C::At<P::Of<$register>>, O::At<P::Of<$register>>>,)*
-        {
         }
 
         impl<P, L, K> SealedLights<P, L> for K
@@ -355,15 +361,6 @@ macro_rules! levels {
             }
         }
 
-        impl<P, L, K> LightsAtEveryLevel<P, L> for K
-        where
-            P: Precision,
-            L: Columns,
-            K: Kernel<(Vec3<P::Of<f32>>, L::At<P::Of<f32>>), Rgb<P::Of<f32>>> + Copy,
-            $(K: Kernel<(Vec3<P::Of<$register>>, L::At<P::Of<$register>>), Rgb<P::Of<$register>>>,)*
-        {
-        }
-
         $(register! {
             $register, $lanes, fearless_simd::$variant,
             Wide::splat,
@@ -378,14 +375,14 @@ macro_rules! levels {
 // stops there, and every level more is code.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 levels! {
-    Avx512 => Wide<fearless_simd::Avx512>, 16;
-    Avx2 => Wide<fearless_simd::Avx2>, 8;
-    Sse4_2 => Wide<fearless_simd::Sse4_2>, 4
+    Sse4_2 "sse4.2" as_sse4_2 => Wide<fearless_simd::Sse4_2>, 4;
+    Avx2 "avx2" as_avx2 => Wide<fearless_simd::Avx2>, 8;
+    Avx512 "avx512" as_avx512 => Wide<fearless_simd::Avx512>, 16
 }
 #[cfg(target_arch = "aarch64")]
-levels! { Neon => Wide<fearless_simd::Neon>, 4 }
+levels! { Neon "neon" as_neon => Wide<fearless_simd::Neon>, 4 }
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-levels! { WasmSimd128 => Wide<fearless_simd::WasmSimd128>, 4 }
+levels! { WasmSimd128 "simd128" as_wasm_simd128 => Wide<fearless_simd::WasmSimd128>, 4 }
 #[cfg(not(any(
     target_arch = "x86",
     target_arch = "x86_64",

@@ -68,7 +68,7 @@ pub use columns::{Columns, ColumnsMut, Uniform};
 pub use fearless_simd::Level;
 pub use kernel::{Eval, EvalCos, InWorld, Kernel, OneChannel, Shade};
 use level::SealedLights as _;
-pub use level::{AtEveryLevel, LightsAtEveryLevel};
+pub use level::{AtEveryLevel, LightsAtEveryLevel, levels};
 
 use crate::number::{Precise, Precision};
 use crate::{Rgb, Vec3};
@@ -223,32 +223,39 @@ impl<P: Precision> Batch<P> {
         L: Columns,
         Shade<B>: LightsAtEveryLevel<P, L>,
     {
-        let expected = v.x.len();
-        let mut index = 0;
-        let mut check = |slice: &[f32]| {
-            let found = LengthError { index, length: slice.len(), expected };
-            index += 1;
-            if slice.len() == expected { Ok(()) } else { Err(found) }
-        };
-        v.visit(&mut check)?;
-        lights.iter().try_for_each(|light| light.visit(&mut check))?;
-        out.visit(&mut check)?;
-        Shade(*lobe).lights_at(self.level, v, lights, out, expected);
+        let mut lengths = Lengths::default();
+        v.visit(&mut |slice| lengths.check(slice))?;
+        lights.iter().try_for_each(|light| light.visit(&mut |slice| lengths.check(slice)))?;
+        out.visit(&mut |slice| lengths.check(slice))?;
+        Shade(*lobe).lights_at(self.level, v, lights, out, lengths.count());
         Ok(())
     }
 }
 
 /// The length that all slices have.
 fn common_length(inputs: &impl Columns, outputs: &impl ColumnsMut) -> Result<usize, LengthError> {
-    let mut first = None;
-    let mut index = 0;
-    let mut check = |slice: &[f32]| {
-        let expected = *first.get_or_insert(slice.len());
-        let found = LengthError { index, length: slice.len(), expected };
-        index += 1;
-        if slice.len() == expected { Ok(()) } else { Err(found) }
-    };
-    inputs.visit(&mut check)?;
-    outputs.visit(&mut check)?;
-    Ok(first.unwrap_or(0))
+    let mut lengths = Lengths::default();
+    inputs.visit(&mut |slice| lengths.check(slice))?;
+    outputs.visit(&mut |slice| lengths.check(slice))?;
+    Ok(lengths.count())
+}
+
+/// Compares the length of each slice with that of the first.
+#[derive(Default)]
+struct Lengths {
+    first: Option<usize>,
+    seen: usize,
+}
+
+impl Lengths {
+    fn check(&mut self, slice: &[f32]) -> Result<(), LengthError> {
+        let expected = *self.first.get_or_insert(slice.len());
+        let found = LengthError { index: self.seen, length: slice.len(), expected };
+        self.seen += 1;
+        if found.length == expected { Ok(()) } else { Err(found) }
+    }
+
+    fn count(&self) -> usize {
+        self.first.unwrap_or(0)
+    }
 }

@@ -34,7 +34,8 @@ use core::f64::consts::TAU;
 /// inputs, `u = 2⁻²⁴`, `L = |ln(x/m)^q|`, `c = x/m ≥ 2⁻¹²`: `|δf/f| ≤ u (8 + 6 L + 11 q (1/c − 1))`, where
 /// `q (1/c − 1) ≤ 1.72 L` for `q ≥ L`. As for [`Phong`](super::Phong) it grows with `L` alone wherever a sharp lobe can be
 /// seen. *Derivation.* The ratios are off by `u`, their complements by `2u`; the squares by `3u`; a product by `6u`, three
-/// sums and the sum of the two squares by `4u`: `1 − c` is off by at most `10u`. From there on as for Phong.
+/// sums and the sum of the two squares by `4u`: `1 − c` is off by at most `10u`. From there on as for
+/// Phong, whose `6.5 L` the spare `u q (1/c − 1) ≥ u L` brings down to `6 L`.
 ///
 /// A lobe whose coefficients are all 0 is black for `q > 0`.
 ///

@@ -19,7 +19,7 @@ use core::f64::consts::TAU;
 /// for `q < −2` the factor is negative.
 ///
 /// Error against `f64` of the same inputs, `u = 2⁻²⁴`, `L = |ln(f/f_max)|`, `c = r·v`:
-/// `|δf/f| ≤ u (7 + 6 L + 5 q (1/c − 1))` for `c ≥ 2⁻¹²`. For `q ≥ L`, that is wherever a sharp lobe is visible,
+/// `|δf/f| ≤ u (7 + 6.5 L + 5 q (1/c − 1))` for `c ≥ 2⁻¹²`. For `q ≥ L`, that is wherever a sharp lobe is visible,
 /// `q (1/c − 1) ≤ 1.72 L`: the error grows with `L` alone, not with `q`. Derivation and test: `docs/numerics.md`.
 ///
 /// Values below 2⁻¹²⁶ of the peak are 0.

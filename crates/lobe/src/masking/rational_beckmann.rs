@@ -60,7 +60,7 @@ impl<R: Real, D> Masking<R, D> for RationalBeckmann<R> {
     fn quotient(&self, _distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> Quotient<R> {
         let (l, v) = (self.g1_over_cos(l), self.g1_over_cos(v));
         let scale = weight.lift(R::ROOT_SCALE);
-        // The square of a width of 1e-4 below the horizon of a small cosine: scaled, the product stays a normal number.
+        // The weight may be a cosine of 1e-38, and a numerator half of it: scaled, their product stays a normal number.
         Quotient::new(
             (weight.times(0.25 * R::ROOT_SCALE * R::ROOT_SCALE)) * (l.numerator * v.numerator),
             (l.denominator * scale) * (v.denominator * scale),

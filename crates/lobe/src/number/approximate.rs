@@ -1,5 +1,6 @@
 //! `Approximate`: a number that trades digits for speed.
 
+use super::elementary::{ERFC_MAX, Eighths, HALF_PI_1, SHIFT, TWO_POW_64, eighths, log2_special_cases, quarter_turns};
 use super::{Estimate, Precision, Real, Rough};
 use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -87,9 +88,6 @@ impl<F: Real, P> Neg for Approximate<F, P> {
     }
 }
 
-/// 1.5·2²³: adding it rounds to an integer, which then stands in the low bits of the sum.
-const SHIFT: f64 = 12_582_912.0;
-
 /// `2^x` for `x` from −126 to 127.5, and the bits of some float elsewhere.
 #[inline(always)]
 fn exp2_in_range<F: Estimate, P: Rough>(x: F) -> F {
@@ -105,15 +103,6 @@ const EXP2_MAX: f64 = 127.5;
 #[inline(always)]
 fn log2_of<F: Estimate, P: Rough>(t: F, k: F) -> F {
     P::log2(t).fused(t, k)
-}
-
-/// `value` for `0 < x < ∞`; −∞ at 0, NaN below, `x` itself at infinity and NaN.
-#[inline(always)]
-fn log2_special_cases<F: Real>(x: F, value: F) -> F {
-    let zero = x.lift(0.0);
-    let negative_or_x = F::select(x.lt(zero), x.lift(f64::NAN), x);
-    let special = F::select(x.eq(zero), x.lift(f64::NEG_INFINITY), negative_or_x);
-    F::select(x.gt(zero) & x.lt(x.lift(f64::INFINITY)), value, special)
 }
 
 /// `log₂ x` for any `x > 0`; a subnormal `x` as the smallest normal number.
@@ -265,18 +254,8 @@ impl<F: Estimate, P: Rough> Real for Approximate<F, P> {
         let k = x.times(core::f64::consts::FRAC_2_PI).plus(SHIFT).plus(-SHIFT);
         let r = (x - k.times(HALF_PI_1)) - k.times(core::f64::consts::FRAC_PI_2 - HALF_PI_1);
         let z = r * r;
-        let (sin, cos) = (P::sin(z) * r, cosine(z));
-        // The quadrant, k modulo 4, as one of −2, −1, 0, 1, 2.
-        let one = x.lift(1.0);
-        let quadrant = k - k.times(0.25).plus(SHIFT).plus(-SHIFT).times(4.0);
-        let odd = quadrant.abs().eq(one);
-        let (s, c) = (F::select(odd, cos, sin), F::select(odd, sin, cos));
-        let half_turn = quadrant.abs().eq(x.lift(2.0));
-        let s = F::select(half_turn | quadrant.eq(-one), -s, s);
-        let c = F::select(half_turn | quadrant.eq(one), -c, c);
-        let known = x.abs().le(x.lift(512.0));
-        let nan = x.lift(f64::NAN);
-        (Self::new(F::select(known, s, nan)), Self::new(F::select(known, c, nan)))
+        let (s, c) = quarter_turns(x, k, P::sin(z) * r, cosine(z));
+        (Self::new(s), Self::new(c))
     }
     #[inline(always)]
     fn atan2(self, x: Self) -> Self {
@@ -287,11 +266,8 @@ impl<F: Estimate, P: Rough> Real for Approximate<F, P> {
         let small = rise.max(run).lt(x.lift(TWO_POW_MINUS_90));
         let scale = F::select(small, x.lift(1.0 / TWO_POW_MINUS_90), x.lift(1.0));
         let (rise, run) = (rise * scale, run * scale);
-        let low = rise.le(run.times(TAN_EIGHTH));
-        let high = run.lt(rise.times(TAN_EIGHTH));
-        let numerator = F::select(low, rise, F::select(high, -run, rise - run));
-        let denominator = F::select(low, run, F::select(high, rise, rise + run));
-        let t = F::divide(numerator, F::select(denominator.eq(zero), x.lift(1.0), denominator));
+        let Eighths { low, high, numerator, denominator } = eighths(rise, run);
+        let t = F::divide(numerator, denominator);
         let start = F::select(low, zero, F::select(high, x.lift(HALF_PI), x.lift(0.5 * HALF_PI)));
         let angle = P::atan(t * t).fused(t, start);
         let angle = F::select(x.lt(zero), x.lift(core::f64::consts::PI) - angle, angle);
@@ -310,15 +286,8 @@ impl<F: Estimate, P: Rough> Real for Approximate<F, P> {
     }
 }
 
-const TWO_POW_64: f64 = 18_446_744_073_709_551_616.0;
 const TWO_POW_MINUS_90: f64 = 1.0 / (1_237_940_039_285_380_274_899_124_224_u128 as f64);
 const HALF_PI: f64 = core::f64::consts::FRAC_PI_2;
-/// 15 bits of π/2.
-const HALF_PI_1: f64 = 1.57073974609375;
-/// tan π/8.
-const TAN_EIGHTH: f64 = 0.414_213_562_373_095_03;
-/// A number of every type, just before `erfc` falls below the smallest normal number.
-const ERFC_MAX: f64 = 9.1875;
 
 // Minimax, by `tools/minimax.py`, with the relative errors that it prints.
 
@@ -353,38 +322,31 @@ pub(super) fn refine_rsqrt<F: Estimate, P: Rough>(x: F, guess: F) -> F {
     P::rsqrt(x * guess * guess) * guess
 }
 
-/// Good to about 13 binary digits: what the machine's estimates give, fused, with polynomials to match.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Fast;
+macro_rules! precisions {
+    ($($(#[$doc:meta])* $Precision:ident $name:literal;)+) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        pub struct $Precision;
 
-/// Good to about 10 binary digits, which is enough for a picture of eight bits.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Coarse;
-
-impl Precision for Fast {
-    type Of<F: Estimate> = Approximate<F, Self>;
-    const NAME: &'static str = "fast";
-    #[inline(always)]
-    fn number<F: Estimate>(value: F) -> Approximate<F, Self> {
-        Approximate::new(value)
-    }
-    #[inline(always)]
-    fn value<F: Estimate>(number: Approximate<F, Self>) -> F {
-        number.value
-    }
+        impl Precision for $Precision {
+            type Of<F: Estimate> = Approximate<F, Self>;
+            const NAME: &'static str = $name;
+            #[inline(always)]
+            fn number<F: Estimate>(value: F) -> Approximate<F, Self> {
+                Approximate::new(value)
+            }
+            #[inline(always)]
+            fn value<F: Estimate>(number: Approximate<F, Self>) -> F {
+                number.value
+            }
+        }
+    )+};
 }
-
-impl Precision for Coarse {
-    type Of<F: Estimate> = Approximate<F, Self>;
-    const NAME: &'static str = "coarse";
-    #[inline(always)]
-    fn number<F: Estimate>(value: F) -> Approximate<F, Self> {
-        Approximate::new(value)
-    }
-    #[inline(always)]
-    fn value<F: Estimate>(number: Approximate<F, Self>) -> F {
-        number.value
-    }
+precisions! {
+    /// Good to about 13 binary digits: what the machine's estimates give, fused, with polynomials to match.
+    Fast "fast";
+    /// Good to about 10 binary digits, which is enough for a picture of eight bits.
+    Coarse "coarse";
 }
 
 impl Rough for Fast {

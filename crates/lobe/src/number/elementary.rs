@@ -25,8 +25,32 @@ pub trait Binary32: Real {
     fn high_part(self) -> Self;
 }
 
+/// The elementary functions of [`Real`] for a [`Binary32`]: those of this module.
+macro_rules! forward {
+    ($($name:ident($($argument:ident: $Type:ty)?) -> $Result:ty;)+) => {$(
+        #[inline(always)]
+        fn $name(self $(, $argument: $Type)?) -> $Result {
+            $crate::number::elementary::$name(self $(, $argument)?)
+        }
+    )+};
+    () => {
+        $crate::number::elementary::forward! {
+            exp2() -> Self;
+            exp2_where(mask: Self::Mask) -> Self;
+            log2() -> Self;
+            log2_1p() -> Self;
+            log2_1p_div(denominator: Self) -> Self;
+            pow(exponent: Self) -> Self;
+            sin_cos() -> (Self, Self);
+            atan2(x: Self) -> Self;
+            erfc() -> Self;
+        }
+    };
+}
+pub(super) use forward;
+
 /// 1.5·2²³: adding it rounds to an integer, which then stands in the low bits of the sum.
-const SHIFT: f64 = 12_582_912.0;
+pub(super) const SHIFT: f64 = 12_582_912.0;
 /// Results of `exp2` below 2^−126, the smallest normal number, become 0: subnormals are two to five times slower on
 /// most machines, and whoever reads a shading value of 1e-38 wants 0.
 const EXP2_MIN: f64 = -126.0;
@@ -158,7 +182,7 @@ const TWO_POW_24: f64 = 16_777_216.0;
 
 /// `value` for `0 < x < ∞`; −∞ at 0, NaN below, `x` itself at infinity and NaN.
 #[inline(always)]
-fn log2_special_cases<F: Real>(x: F, value: F) -> F {
+pub(super) fn log2_special_cases<F: Real>(x: F, value: F) -> F {
     let zero = x.lift(0.0);
     let negative_or_x = F::select(x.lt(zero), x.lift(f64::NAN), x);
     let special = F::select(x.eq(zero), x.lift(f64::NEG_INFINITY), negative_or_x);
@@ -190,11 +214,11 @@ pub fn log2_1p<F: Binary32>(x: F) -> F {
     log2_special_cases(one + x, value)
 }
 
-const TWO_POW_64: f64 = 18_446_744_073_709_551_616.0;
+pub(super) const TWO_POW_64: f64 = 18_446_744_073_709_551_616.0;
 const TWO_POW_MINUS_30: f64 = 1.0 / 1_073_741_824.0;
 
-/// `log₂(1 + a/b)` with one division and a relative error of at most 5·2⁻²⁴, for `a ≥ 0`, or of 5.5·2⁻²⁴ for any `a > −b` if `b` is
-/// a power of two; `b` and `a + b` from the smallest normal number to 2¹²⁷.
+/// `log₂(1 + a/b)` with one division and a relative error of at most 5·2⁻²⁴, for `a ≥ 0`, or of 5.5·2⁻²⁴ for any
+/// `a > −b` if `b` is a power of two; `b` and `a + b` from the smallest normal number to 2¹²⁷.
 ///
 /// With `2ᵏ` so that `(a + b)/(b 2ᵏ)` is near 1, `s = (a + b − b 2ᵏ)/(a + b + b 2ᵏ)` and
 /// `log₂(1 + a/b) = k + 2/ln 2 · s + s³ Q(s²)`. In the numerator `b − b 2ᵏ` is 0 for `k = 0`, so that small quotients
@@ -271,8 +295,15 @@ pub fn sin_cos<F: Binary32>(x: F) -> (F, F) {
     let p = (p * z).plus(0.0416666455567);
     let cos = w + (((one - w) - half_z) + (p * (z * z) - r * r_lo));
 
+    quarter_turns(x, k, sin, cos)
+}
+
+/// `(sin x, cos x)` for `x = k π/2 + r`, of the sine and the cosine of `r`; NaN beyond the domain.
+#[inline(always)]
+pub(super) fn quarter_turns<F: Real>(x: F, k: F, sin: F, cos: F) -> (F, F) {
+    let one = x.lift(1.0);
     // The quadrant, k modulo 4, as one of −2, −1, 0, 1, 2.
-    let quadrant = k - round_shifter(k.times(0.25)).plus(-SHIFT).times(4.0);
+    let quadrant = k - k.times(0.25).plus(SHIFT).plus(-SHIFT).times(4.0);
     let odd = quadrant.abs().eq(one);
     let (s, c) = (F::select(odd, cos, sin), F::select(odd, sin, cos));
     let half_turn = quadrant.abs().eq(x.lift(2.0));
@@ -286,7 +317,8 @@ pub fn sin_cos<F: Binary32>(x: F) -> (F, F) {
 
 /// The largest angle of [`sin_cos`], in radians.
 const SIN_COS_MAX: f64 = 512.0;
-const HALF_PI_1: f64 = 1.57073974609375;
+/// 15 bits of π/2.
+pub(super) const HALF_PI_1: f64 = 1.57073974609375;
 const HALF_PI_2: f64 = 0.000056579709053039550781;
 const HALF_PI_3: f64 = 9.9208818937768228352e-10;
 const HALF_PI_4: f64 = 5.3903025299577647655e-15;
@@ -300,13 +332,8 @@ pub fn atan2<F: Binary32>(y: F, x: F) -> F {
     // the polynomial: 1.249045 for atan2(6, 2) · 2⁻¹⁴⁹, which is 6 ulp off. A power of two changes no angle.
     let scale = F::select(rise.max(run).lt(x.lift(TWO_POW_MINUS_100)), x.lift(TWO_POW_100), one);
     let (rise, run) = (rise * scale, run * scale);
-    // The angle in the first quadrant is that of (run, rise) below π/8, 3π/8 and more is counted from the other axis,
-    // and between them from the diagonal: one division, and a tangent of at most tan π/8.
-    let low = rise.le(run.times(TAN_EIGHTH));
-    let high = run.lt(rise.times(TAN_EIGHTH));
-    let numerator = F::select(low, rise, F::select(high, -run, rise - run));
-    let denominator = F::select(low, run, F::select(high, rise, rise + run));
-    let t = numerator / F::select(denominator.eq(zero), one, denominator);
+    let Eighths { low, high, numerator, denominator } = eighths(rise, run);
+    let t = numerator / denominator;
     let z = t * t;
     let p = z.lift(ATAN_A4);
     let p = (p * z).plus(ATAN_A3);
@@ -323,6 +350,29 @@ pub fn atan2<F: Binary32>(y: F, x: F) -> F {
     // For a zero `start` the sum is t + t³ A(t²) as it stands.
     let angle = start + (sign * t + (sign * (p * z * t) + start_lo));
     angle.copysign(y)
+}
+
+/// The angle of `(run, rise)` in the first quadrant, by a tangent of at most tan π/8.
+pub(super) struct Eighths<F: Real> {
+    /// It is counted from the first axis,
+    pub low: F::Mask,
+    /// or from the other one, else from the diagonal.
+    pub high: F::Mask,
+    pub numerator: F,
+    /// Not 0: then the numerator is.
+    pub denominator: F,
+}
+
+/// The angle is that of `(run, rise)` below π/8; 3π/8 and more is counted from the other axis, and between them from the
+/// diagonal: one division, and a tangent of at most tan π/8.
+#[inline(always)]
+pub(super) fn eighths<F: Real>(rise: F, run: F) -> Eighths<F> {
+    let low = rise.le(run.times(TAN_EIGHTH));
+    let high = run.lt(rise.times(TAN_EIGHTH));
+    let numerator = F::select(low, rise, F::select(high, -run, rise - run));
+    let denominator = F::select(low, run, F::select(high, rise, rise + run));
+    let denominator = F::select(denominator.eq(run.lift(0.0)), run.lift(1.0), denominator);
+    Eighths { low, high, numerator, denominator }
 }
 
 const TWO_POW_100: f64 = 1_267_650_600_228_229_401_496_703_205_376.0;
@@ -381,7 +431,7 @@ pub fn erfc<F: Binary32>(x: F) -> F {
 }
 
 /// A number of every type, just before `erfc` falls below the smallest normal number, at 9.1945.
-const ERFC_MAX: f64 = 9.1875;
+pub(super) const ERFC_MAX: f64 = 9.1875;
 /// Twelve bits of log₂ e, and the rest.
 const LOG2_E_HI: f64 = 1.4423828125;
 const LOG2_E_LO: f64 = core::f64::consts::LOG2_E - LOG2_E_HI;

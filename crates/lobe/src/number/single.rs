@@ -40,42 +40,7 @@ impl Real for f32 {
     fn copysign(self, sign: Self) -> Self {
         f32::copysign(self, sign)
     }
-    #[inline(always)]
-    fn exp2(self) -> Self {
-        elementary::exp2(self)
-    }
-    #[inline(always)]
-    fn exp2_where(self, mask: bool) -> Self {
-        elementary::exp2_where(self, mask)
-    }
-    #[inline(always)]
-    fn log2(self) -> Self {
-        elementary::log2(self)
-    }
-    #[inline(always)]
-    fn log2_1p(self) -> Self {
-        elementary::log2_1p(self)
-    }
-    #[inline(always)]
-    fn log2_1p_div(self, denominator: Self) -> Self {
-        elementary::log2_1p_div(self, denominator)
-    }
-    #[inline(always)]
-    fn pow(self, exponent: Self) -> Self {
-        elementary::pow(self, exponent)
-    }
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        elementary::sin_cos(self)
-    }
-    #[inline(always)]
-    fn atan2(self, x: Self) -> Self {
-        elementary::atan2(self, x)
-    }
-    #[inline(always)]
-    fn erfc(self) -> Self {
-        elementary::erfc(self)
-    }
+    elementary::forward!();
 }
 
 impl Binary32 for f32 {
