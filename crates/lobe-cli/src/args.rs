@@ -398,9 +398,10 @@ Each material is run as it is, and with approximations in place of its parts, wh
 and coarse, and in lanes of each SIMD level, precise, fast and coarse.
 
 ns is the time of one evaluation from the cache, with quartiles, stream the time from 64 MiB of memory, M/s all what all
-cores do in a second, in millions. median, p99 and worst are relative errors against f64, albedo that of the directional
-albedo. The last three are what is seen on a sphere under three lights: CIE Delta E 2000, and the largest difference in
-steps of eight bits.
+cores do in a second, in millions. bytes is the machine code of the functions that evaluate the lobes, without what they
+call; - where it is not known, and then the last line says why. median, p99 and worst are relative errors against f64,
+albedo that of the directional albedo. The last three are what is seen on a sphere under three lights: CIE Delta E 2000,
+and the largest difference in steps of eight bits.
 
 Examples:
   lobe trade

@@ -1,4 +1,4 @@
-//! `lobe trade`: what digits cost, and what may be saved within an error that nobody sees.
+//! `lobe trade`: what digits cost in time and code, and what may be saved within an error that nobody sees.
 
 use crate::args::TradeArgs;
 use crate::error::Failure;
@@ -47,6 +47,10 @@ pub(crate) fn run(args: &TradeArgs, quiet: bool, json: bool) -> Result<(), Failu
     drop(bar);
 
     let flat: Vec<Row> = all.iter().flatten().cloned().collect();
+    let no_code = no_code(&flat, bench.no_code());
+    if let (Some(why), false, None) = (&no_code, json, args.budget) {
+        output::print(format!("bytes: {why}\n").as_bytes())?;
+    }
     if is_noisy(&flat) && !quiet {
         let _ = writeln!(
             std::io::stderr(),
@@ -54,13 +58,13 @@ pub(crate) fn run(args: &TradeArgs, quiet: bool, json: bool) -> Result<(), Failu
         );
     }
     if json {
-        output::print(format!("{:#}\n", facts(&all, args.budget)).as_bytes())?;
+        output::print(format!("{:#}\n", facts(&all, args.budget, no_code.as_deref())).as_bytes())?;
     }
     if let Some(path) = &args.csv {
         output::write_file(path, csv(&flat).as_bytes())?;
     }
     if let Some(path) = &args.markdown {
-        output::write_file(path, markdown(&all, is_noisy(&flat)).as_bytes())?;
+        output::write_file(path, markdown(&all, is_noisy(&flat), no_code.as_deref()).as_bytes())?;
     }
     if let Some(folder) = &args.svg {
         for rows in &all {
@@ -154,6 +158,18 @@ fn short(error: f64) -> String {
     if error == 0.0 { "0".to_owned() } else { format!("{error:.0e}") }
 }
 
+/// The bytes of the code, or that they are not known.
+fn bytes(row: &Row) -> String {
+    row.code.map_or_else(|| "-".to_owned(), |bytes| bytes.to_string())
+}
+
+/// Why some rows have no bytes of code, if so.
+fn no_code(rows: &[Row], none_at_all: Option<&str>) -> Option<String> {
+    let lacking = rows.iter().any(|row| row.code.is_none());
+    let some = || lacking.then_some("where there is `-`, this program has no function of the name that was looked for");
+    none_at_all.or_else(some).map(str::to_owned)
+}
+
 /// The form and the number, without what need not be said.
 fn what(row: &Row) -> String {
     if row.form == EXACT { row.number.name() } else { format!("{}, {}", row.number.name(), row.form) }
@@ -168,7 +184,7 @@ fn table(rows: &[Row]) -> String {
         if form.is_empty() {
             let _ = writeln!(
                 text,
-                "{:<33} ns (quartiles)        stream  M/s all   median  p99     worst   albedo  ΔE mean  worst  8 bit",
+                "{:<33} ns (quartiles)        stream  M/s all   bytes   median  p99     worst   albedo  ΔE mean  worst  8 bit",
                 row.subject
             );
         }
@@ -181,12 +197,13 @@ fn table(rows: &[Row]) -> String {
         let (ns, seen) = (row.resident, row.seen);
         let _ = writeln!(
             text,
-            "    {:<16} {:>18.2} {:<15} {:>7.2} {:>8.0}   {:<7} {:<7} {:<7} {:<7} {:>7.3} {:>6.2} {:>6}",
+            "    {:<16} {:>18.2} {:<15} {:>7.2} {:>8.0} {:>7}   {:<7} {:<7} {:<7} {:<7} {:>7.3} {:>6.2} {:>6}",
             row.number.name(),
             ns.median,
             format!("({:.2}–{:.2})", ns.low, ns.high),
             row.streaming.median,
             row.all_cores * 1e-6,
+            bytes(row),
             short(row.error.median),
             short(row.error.p99),
             short(row.error.worst),
@@ -257,6 +274,7 @@ fn row_facts(row: &Row) -> serde_json::Value {
         "ns": { "median": row.resident.median, "low": row.resident.low, "high": row.resident.high },
         "ns_streaming": { "median": row.streaming.median, "low": row.streaming.low, "high": row.streaming.high },
         "per_second_all_cores": row.all_cores,
+        "code_bytes": row.code,
         "error": {
             "median": number(row.error.median), "p99": number(row.error.p99), "worst": number(row.error.worst),
         },
@@ -266,7 +284,7 @@ fn row_facts(row: &Row) -> serde_json::Value {
     })
 }
 
-fn facts(all: &[Vec<Row>], budget: Option<f64>) -> serde_json::Value {
+fn facts(all: &[Vec<Row>], budget: Option<f64>, no_code: Option<&str>) -> serde_json::Value {
     let subjects: Vec<_> = all
         .iter()
         .filter_map(|rows| {
@@ -286,6 +304,7 @@ fn facts(all: &[Vec<Row>], budget: Option<f64>) -> serde_json::Value {
         "cores": std::thread::available_parallelism().map_or(1, usize::from),
         "levels": names,
         "noisy": is_noisy(&all.iter().flatten().cloned().collect::<Vec<_>>()),
+        "no_code": no_code,
         "subjects": subjects,
     })
 }
@@ -293,7 +312,7 @@ fn facts(all: &[Vec<Row>], budget: Option<f64>) -> serde_json::Value {
 fn csv(rows: &[Row]) -> String {
     let mut text = String::from(
         "subject,form,number,ns,ns_low,ns_high,ns_streaming,per_second_all_cores,error_median,error_p99,error_worst,\
-         albedo_error,delta_e_mean,delta_e_worst,steps_of_8_bits\n",
+         albedo_error,delta_e_mean,delta_e_worst,steps_of_8_bits,code_bytes\n",
     );
     // Names of materials come from files.
     let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
@@ -301,7 +320,7 @@ fn csv(rows: &[Row]) -> String {
         let (ns, error, seen) = (row.resident, row.error, row.seen);
         let _ = writeln!(
             text,
-            "{},{},{},{:.4},{:.4},{:.4},{:.4},{:.0},{:e},{:e},{:e},{:e},{:e},{:e},{}",
+            "{},{},{},{:.4},{:.4},{:.4},{:.4},{:.0},{:e},{:e},{:e},{:e},{:e},{:e},{},{}",
             quoted(&row.subject),
             quoted(&row.form),
             row.number.name(),
@@ -316,7 +335,8 @@ fn csv(rows: &[Row]) -> String {
             row.albedo,
             seen.mean,
             seen.worst,
-            seen.steps
+            seen.steps,
+            row.code.map_or_else(String::new, |bytes| bytes.to_string())
         );
     }
     text
@@ -332,27 +352,31 @@ Made by `lobe trade --markdown`; `lobe trade --help` and the crate `lobe-trade` 
 - *p99*, *worst*: the relative error of `eval_cos` against `f64` of the same inputs, above a ten-thousandth of the peak.
 - *albedo*: the relative error of the directional albedo.
 - *ΔE*: CIE ΔE 2000 at worst on a sphere under three lights; *8 bit*: the largest difference of a channel of sRGB there.
-
-Code size is not measured here.
+- *bytes*: the machine code of the functions that evaluate the lobes: `eval_cos` of a scalar, in lanes the loop over
+  registers. What they call is not included. A microfacet lobe is one function with every masking and Fresnel term,
+  but for the common ones in lanes.
 ";
 
-fn markdown(all: &[Vec<Row>], noisy: bool) -> String {
+fn markdown(all: &[Vec<Row>], noisy: bool, no_code: Option<&str>) -> String {
     let mut text = format!("# What digits cost\n\n{ABOUT}\nMeasured on: {}", machine());
     if noisy {
         text += "\n**The machine was busy meanwhile: the times are rough.**\n";
+    }
+    if let Some(why) = no_code {
+        let _ = writeln!(text, "\nBytes: {why}.");
     }
     for rows in all {
         let Some(first) = rows.first() else { continue };
         let _ = write!(
             text,
-            "\n## {}\n\n| form | number | ns | stream | M/s | p99 | worst | albedo | ΔE | 8 bit |\n\
-             |---|---|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+            "\n## {}\n\n| form | number | ns | stream | M/s | p99 | worst | albedo | ΔE | 8 bit | bytes |\n\
+             |---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
             first.subject
         );
         for row in rows {
             let _ = writeln!(
                 text,
-                "| {} | {} | {:.2} | {:.2} | {:.0} | {} | {} | {} | {:.2} | {} |",
+                "| {} | {} | {:.2} | {:.2} | {:.0} | {} | {} | {} | {:.2} | {} | {} |",
                 row.form,
                 row.number.name(),
                 row.resident.median,
@@ -362,7 +386,8 @@ fn markdown(all: &[Vec<Row>], noisy: bool) -> String {
                 short(row.error.worst),
                 short(row.albedo),
                 row.seen.worst,
-                row.seen.steps
+                row.seen.steps,
+                bytes(row)
             );
         }
     }

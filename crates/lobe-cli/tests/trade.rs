@@ -77,6 +77,45 @@ fn a_budget_names_the_cheapest_within_it() {
     assert!(line.lines().any(|line| line.starts_with("paint: ") && line.contains("% of the scalar f32")), "{line}");
 }
 
+/// Where the program has no names that tell, nothing stands there, and why.
+#[test]
+fn bytes_of_code_are_in_every_output() {
+    let folder = scene();
+    let run = |more: &[&str]| {
+        let arguments = [&["trade", "scene.json", "--quick", "--csv", "t.csv", "--markdown", "t.md"], more].concat();
+        let run = lobe_in(folder.path(), &arguments);
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        text(&run.stdout)
+    };
+    let facts: serde_json::Value = serde_json::from_str(&run(&["--json"])).expect("JSON");
+    let rows = facts["subjects"][0]["rows"].as_array().expect("rows");
+    let known = facts["no_code"].is_null();
+    // The flags of the workspace ask for names that tell; others may take their place.
+    assert!(known || !cfg!(target_os = "linux") || std::env::var_os("RUSTFLAGS").is_some(), "{facts}");
+    let sizes: Vec<_> = rows.iter().map(|row| row["code_bytes"].as_u64()).collect();
+    assert!(sizes.iter().all(|bytes| bytes.is_some() == known), "{sizes:?}");
+    let cells = |blank: &str| -> Vec<String> {
+        sizes.iter().map(|bytes| bytes.map_or_else(|| blank.to_owned(), |bytes| bytes.to_string())).collect()
+    };
+
+    let csv = fs::read_to_string(folder.path().join("t.csv")).expect("a file");
+    assert!(csv.lines().next().is_some_and(|head| head.ends_with(",code_bytes")), "{csv}");
+    let last = |line: &str| line.rsplit_once(',').map(|(_, cell)| cell.to_owned());
+    assert_eq!(csv.lines().skip(1).filter_map(last).collect::<Vec<_>>(), cells(""));
+
+    let page = fs::read_to_string(folder.path().join("t.md")).expect("a file");
+    let last = |line: &str| line.strip_suffix(" |")?.rsplit_once("| ").map(|(_, cell)| cell.to_owned());
+    let lines = page.lines().skip_while(|line| !line.starts_with("|---")).skip(1);
+    assert_eq!(lines.filter_map(last).collect::<Vec<_>>(), cells("-"));
+    assert_eq!(page.contains("\nBytes: "), !known);
+
+    let table = run(&[]);
+    let column = |line: &str| line.split_whitespace().rev().nth(7).map(str::to_owned);
+    let lines = table.lines().filter(|line| line.starts_with("    "));
+    assert_eq!(lines.filter_map(column).collect::<Vec<_>>(), cells("-"));
+    assert_eq!(table.contains("\nbytes: "), !known);
+}
+
 #[test]
 fn what_is_wrong_is_said() {
     let folder = scene();

@@ -1,7 +1,8 @@
 //! A lobe over slices of which only the values are known at run time.
 
 use crate::catalogue::Model;
-use crate::number::{AnyBrdf, Number};
+use crate::function::Function;
+use crate::number::{AnyBrdf, Built, Number};
 use crate::reader::Reader;
 use lobe::batch::{AtEveryLevel, Batch, LengthError, Level, Shade};
 use lobe::number::{Approximate, Coarse, Fast, Precise, Precision};
@@ -120,6 +121,13 @@ pub trait BatchBrdf {
 
     /// The lobe as a scalar of the precision [`Coarse`], with the numbers that its constructor derived in `f32`.
     fn coarse(&self) -> AnyBrdf<Approximate<f32, Coarse>>;
+
+    /// The functions that [`shade`](Self::shade) runs, one for each lobe; what goes before and after their loops is not
+    /// among them.
+    fn functions(&self, precision: AnyPrecision) -> Vec<Function>;
+
+    /// The functions that evaluate the lobe as a scalar of that precision, one for each lobe.
+    fn scalar_functions(&self, precision: AnyPrecision) -> Vec<Function>;
 }
 
 /// That all slices are as long as the first.
@@ -175,6 +183,22 @@ where
     fn coarse(&self) -> AnyBrdf<Approximate<f32, Coarse>> {
         Box::new(self.0.carry(&Approximate::new))
     }
+
+    fn functions(&self, precision: AnyPrecision) -> Vec<Function> {
+        vec![match precision {
+            AnyPrecision::Precise => Function::lanes::<Precise, Shade<B>>(),
+            AnyPrecision::Fast => Function::lanes::<Fast, Shade<B>>(),
+            AnyPrecision::Coarse => Function::lanes::<Coarse, Shade<B>>(),
+        }]
+    }
+
+    fn scalar_functions(&self, precision: AnyPrecision) -> Vec<Function> {
+        vec![match precision {
+            AnyPrecision::Precise => Function::scalar::<B, f32>(),
+            AnyPrecision::Fast => Function::scalar::<B::In<Approximate<f32, Fast>>, Approximate<f32, Fast>>(),
+            AnyPrecision::Coarse => Function::scalar::<B::In<Approximate<f32, Coarse>>, Approximate<f32, Coarse>>(),
+        }]
+    }
 }
 
 // The tests inside this crate run no batch, and would have all kernels compiled once more.
@@ -195,16 +219,19 @@ where
 /// Those are the lobes with a [`SmithTable`](lobe::distribution::SmithTable), which lanes add up node by node: with
 /// them the crate takes a compiler two minutes more.
 pub(crate) fn pointwise(lobe: impl Brdf<f32> + Send + Sync + 'static) -> AnyBatch {
-    pointwise_any(Box::new(lobe))
+    pointwise_any(crate::number::boxed(lobe))
 }
 
 /// The same for one of which no more is known.
-pub(crate) fn pointwise_any(lobe: AnyBrdf<f32>) -> AnyBatch {
-    Box::new(Pointwise(Arc::from(lobe)))
+pub(crate) fn pointwise_any(lobe: Built<f32>) -> AnyBatch {
+    Box::new(Pointwise { brdf: Arc::from(lobe.brdf), function: lobe.function })
 }
 
 #[derive(Clone)]
-struct Pointwise(Arc<dyn Brdf<f32> + Send + Sync>);
+struct Pointwise {
+    brdf: Arc<dyn Brdf<f32> + Send + Sync>,
+    function: Function,
+}
 
 impl BatchBrdf for Pointwise {
     fn shade(
@@ -218,7 +245,7 @@ impl BatchBrdf for Pointwise {
     ) -> Result<(), LengthError> {
         same_length(&[l.x, l.y, l.z, v.x, v.y, v.z, e.r, e.g, e.b, &*out.r, &*out.g, &*out.b])?;
         for (i, ((r, g), b)) in out.r.iter_mut().zip(out.g).zip(out.b).enumerate() {
-            let f = self.0.eval_cos(l.map(|s| s[i]), v.map(|s| s[i])) * e.map(|s| s[i]);
+            let f = self.brdf.eval_cos(l.map(|s| s[i]), v.map(|s| s[i])) * e.map(|s| s[i]);
             (*r, *g, *b) = (*r + f.r, *g + f.g, *b + f.b);
         }
         Ok(())
@@ -231,6 +258,14 @@ impl BatchBrdf for Pointwise {
     fn coarse(&self) -> AnyBrdf<Approximate<f32, Coarse>> {
         Box::new(self.clone())
     }
+
+    fn functions(&self, _precision: AnyPrecision) -> Vec<Function> {
+        vec![self.function]
+    }
+
+    fn scalar_functions(&self, _precision: AnyPrecision) -> Vec<Function> {
+        vec![self.function]
+    }
 }
 
 impl<P> Brdf<Approximate<f32, P>> for Pointwise
@@ -238,10 +273,10 @@ where
     Approximate<f32, P>: lobe::Real,
 {
     fn eval(&self, l: Vec3<Approximate<f32, P>>, v: Vec3<Approximate<f32, P>>) -> Rgb<Approximate<f32, P>> {
-        self.0.eval(l.map(Approximate::value), v.map(Approximate::value)).map(Approximate::new)
+        self.brdf.eval(l.map(Approximate::value), v.map(Approximate::value)).map(Approximate::new)
     }
     fn eval_cos(&self, l: Vec3<Approximate<f32, P>>, v: Vec3<Approximate<f32, P>>) -> Rgb<Approximate<f32, P>> {
-        self.0.eval_cos(l.map(Approximate::value), v.map(Approximate::value)).map(Approximate::new)
+        self.brdf.eval_cos(l.map(Approximate::value), v.map(Approximate::value)).map(Approximate::new)
     }
 }
 
@@ -307,6 +342,14 @@ impl BatchBrdf for Sum {
     fn coarse(&self) -> AnyBrdf<Approximate<f32, Coarse>> {
         self.scalar(|lobe| lobe.coarse())
     }
+
+    fn functions(&self, precision: AnyPrecision) -> Vec<Function> {
+        self.0.iter().flat_map(|(lobe, _)| lobe.functions(precision)).collect()
+    }
+
+    fn scalar_functions(&self, precision: AnyPrecision) -> Vec<Function> {
+        self.0.iter().flat_map(|(lobe, _)| lobe.scalar_functions(precision)).collect()
+    }
 }
 
 macro_rules! number {
@@ -318,6 +361,9 @@ macro_rules! number {
             }
             fn construct(model: &Model, reader: &Reader<'_, Self>) -> AnyBrdf<Self> {
                 (model.build.batch)(&reader.of()).$scalar()
+            }
+            fn functions(model: &Model, reader: &Reader<'_, Self>) -> Vec<Function> {
+                (model.build.batch)(&reader.of()).scalar_functions(AnyPrecision::$precision)
             }
         }
     )+};

@@ -3,7 +3,8 @@
 #[cfg(feature = "batch")]
 use crate::batch::AnyBatch;
 use crate::families;
-use crate::number::{AnyBrdf, Number};
+use crate::function::Function;
+use crate::number::{AnyBrdf, Built, Number};
 use crate::parameter::{Error, Parameter, Value};
 use crate::reader::Reader;
 use crate::terms::AnyTerms;
@@ -52,9 +53,9 @@ impl Bound {
 /// The model's constructor in each number type; a function pointer cannot be generic. Made by `constructors!`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constructors {
-    pub(crate) f32: fn(&Reader<'_, f32>) -> AnyBrdf<f32>,
-    pub(crate) f64: fn(&Reader<'_, f64>) -> AnyBrdf<f64>,
-    pub(crate) half: fn(&Reader<'_, Half>) -> AnyBrdf<Half>,
+    pub(crate) f32: fn(&Reader<'_, f32>) -> Built<f32>,
+    pub(crate) f64: fn(&Reader<'_, f64>) -> Built<f64>,
+    pub(crate) half: fn(&Reader<'_, Half>) -> Built<Half>,
     #[cfg(feature = "batch")]
     pub(crate) batch: fn(&Reader<'_, f32>) -> AnyBatch,
     /// Of the models that are made of `D`, `G` and `F`.
@@ -205,6 +206,12 @@ impl Lobe {
         }
         let [r, g, b] = self.weight.map(R::from_f64);
         Box::new(Weighted { lobe, weight: Rgb::new(r, g, b) })
+    }
+
+    /// The functions that evaluate [`build`](Self::build); what multiplies the lobe with its weight is not among them.
+    #[must_use]
+    pub fn functions<R: Number>(&self) -> Vec<Function> {
+        R::functions(self.model, &Reader::new(self.model.parameters, &self.values))
     }
 
     /// The lobe over slices.

@@ -38,6 +38,7 @@ mod batch;
 mod catalogue;
 mod families;
 mod forms;
+mod function;
 mod json;
 mod material;
 mod names;
@@ -51,6 +52,7 @@ mod terms;
 #[cfg(feature = "batch")]
 pub use batch::{AnyBatch, AnyPrecision, BatchBrdf};
 pub use catalogue::{Bound, Lobe, Model, model, models};
+pub use function::Function;
 pub use json::{JsonError, MAX_LOBES};
 pub use material::Material;
 pub use names::nearest;

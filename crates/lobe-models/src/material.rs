@@ -1,6 +1,7 @@
 //! A material: a sum of lobes.
 
 use crate::catalogue::Lobe;
+use crate::function::Function;
 use crate::number::{AnyBrdf, Number};
 use crate::parameter::{Kind, Parameter, Value};
 use lobe::{Black, Brdf, Rgb, Vec3};
@@ -57,6 +58,12 @@ impl Material {
             return lobe.build();
         }
         Box::new(Composite { lobes: self.lobes.iter().map(Lobe::build).collect() })
+    }
+
+    /// The functions that evaluate the lobes of [`build`](Self::build); what adds them up is not among them.
+    #[must_use]
+    pub fn functions<R: Number>(&self) -> Vec<Function> {
+        self.lobes.iter().flat_map(Lobe::functions::<R>).collect()
     }
 
     /// The BRDF over slices: lobe after lobe, each added to what is there.

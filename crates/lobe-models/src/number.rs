@@ -1,6 +1,7 @@
 //! The number types that a model can be built in at run time.
 
 use crate::catalogue::Model;
+use crate::function::Function;
 use crate::reader::Reader;
 use lobe::{Brdf, Half, Real};
 
@@ -15,6 +16,8 @@ pub trait Number: Real + Send + Sync + 'static {
     fn from_f64(value: f64) -> Self;
     /// The model in this type, with the parameters of the reader.
     fn construct(model: &Model, reader: &Reader<'_, Self>) -> AnyBrdf<Self>;
+    /// The functions that evaluate it.
+    fn functions(model: &Model, reader: &Reader<'_, Self>) -> Vec<Function>;
 }
 
 impl Number for f32 {
@@ -22,7 +25,10 @@ impl Number for f32 {
         value as f32
     }
     fn construct(model: &Model, reader: &Reader<'_, Self>) -> AnyBrdf<Self> {
-        (model.build.f32)(reader)
+        (model.build.f32)(reader).brdf
+    }
+    fn functions(model: &Model, reader: &Reader<'_, Self>) -> Vec<Function> {
+        vec![(model.build.f32)(reader).function]
     }
 }
 
@@ -31,7 +37,10 @@ impl Number for f64 {
         value
     }
     fn construct(model: &Model, reader: &Reader<'_, Self>) -> AnyBrdf<Self> {
-        (model.build.f64)(reader)
+        (model.build.f64)(reader).brdf
+    }
+    fn functions(model: &Model, reader: &Reader<'_, Self>) -> Vec<Function> {
+        vec![(model.build.f64)(reader).function]
     }
 }
 
@@ -40,11 +49,20 @@ impl Number for Half {
         Self::from(value)
     }
     fn construct(model: &Model, reader: &Reader<'_, Self>) -> AnyBrdf<Self> {
-        (model.build.half)(reader)
+        (model.build.half)(reader).brdf
+    }
+    fn functions(model: &Model, reader: &Reader<'_, Self>) -> Vec<Function> {
+        vec![(model.build.half)(reader).function]
     }
 }
 
+/// What a constructor makes: the lobe, and the function behind its pointer.
+pub(crate) struct Built<R> {
+    pub(crate) brdf: AnyBrdf<R>,
+    pub(crate) function: Function,
+}
+
 /// What a constructor ends with.
-pub(crate) fn boxed<R: Number>(lobe: impl Brdf<R> + Send + Sync + 'static) -> AnyBrdf<R> {
-    Box::new(lobe)
+pub(crate) fn boxed<R: Number, B: Brdf<R> + Send + Sync + 'static>(lobe: B) -> Built<R> {
+    Built { brdf: Box::new(lobe), function: Function::scalar::<B, R>() }
 }

@@ -1,6 +1,7 @@
 //! The terms of a microfacet lobe, one by one: for a plot, or to compare models by what they are made of.
 
-use crate::number::{AnyBrdf, Number};
+use crate::function::Function;
+use crate::number::{AnyBrdf, Built, Number};
 use lobe::distribution::Distribution;
 use lobe::fresnel::{Fresnel, Incidence};
 use lobe::masking::Masking;
@@ -32,6 +33,8 @@ pub trait Terms<R: Number>: Send + Sync {
     fn f(&self, cos: R) -> Rgb<R>;
     /// The lobe that they make together.
     fn into_brdf(self: Box<Self>) -> AnyBrdf<R>;
+    /// The function that evaluates that lobe.
+    fn function(&self) -> Function;
 }
 
 impl<R, D, G, F> Terms<R> for Microfacet<D, G, F>
@@ -61,9 +64,18 @@ where
     fn into_brdf(self: Box<Self>) -> AnyBrdf<R> {
         self
     }
+
+    fn function(&self) -> Function {
+        Function::scalar::<Self, R>()
+    }
 }
 
 /// What the constructor of a lobe with terms ends with.
 pub(crate) fn boxed<R: Number>(lobe: impl Terms<R> + 'static) -> Box<dyn Terms<R>> {
     Box::new(lobe)
+}
+
+/// What the constructor of a lobe ends with that has such terms.
+pub(crate) fn built<R: Number>(terms: Box<dyn Terms<R>>) -> Built<R> {
+    Built { function: terms.function(), brdf: terms.into_brdf() }
 }

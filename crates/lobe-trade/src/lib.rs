@@ -1,4 +1,5 @@
-//! What digits cost: the time of each model of `lobe` in each number type, beside the error that is seen.
+//! What digits cost: the time and the machine code of each model of `lobe` in each number type, beside the error that is
+//! seen.
 //!
 //! ```
 //! use lobe_models::{Material, preset};
@@ -29,6 +30,18 @@
 //! All numbers of a subject are timed in turn, round after round, each round beginning with another one; the times are
 //! medians, with quartiles. [`is_noisy`] says when they are not to be trusted.
 //!
+//! # What is counted
+//!
+//! - *bytes*: the machine code of the functions that evaluate the lobes, which the program looks up among its own
+//!   symbols. Of a scalar that is `eval_cos` of the lobe's type; in lanes the loop over whole registers of
+//!   `eval_cos · E`. Several lobes add up, each function once. What such a function calls is not included (the logarithm
+//!   of an `f64`, for one), nor what is the same for all lobes: the sum, the weights, the rest that fills no register.
+//!   A microfacet lobe whose terms are chosen at run time is one function with every masking and every Fresnel term: all
+//!   of them as scalars, and in lanes all but the common ones ([`Lobe::batch`](lobe_models::Lobe::batch) says which).
+//!
+//! Only programs in ELF whose names say what a generic function was made for can tell: those that are not stripped and
+//! built with `-C symbol-mangling-version=v0`, as the workspace does. Elsewhere [`Bench::no_code`] says why not.
+//!
 //! # What is compared
 //!
 //! - *error*: of `eval_cos` against `f64` of the same inputs, as a part of the value, for 4096 pairs of directions, half
@@ -40,6 +53,7 @@
 //!
 //! A form that stands for another is compared with what it stands for.
 
+mod code;
 mod measure;
 mod picture;
 mod subject;

@@ -1,5 +1,6 @@
 //! Time and error of each form of a subject in each number type.
 
+use crate::code::Code;
 use crate::picture::{Seen, Sphere, compare, exposure, picture};
 use crate::subject::Subject;
 use lobe::batch::{Level, levels};
@@ -161,6 +162,9 @@ pub struct Row {
     pub streaming: Quartiles,
     /// Evaluations a second of all cores together.
     pub all_cores: f64,
+    /// Bytes of the functions that evaluate the lobes, each once; what they call is not included. `None` if it is not
+    /// known, see [`Bench::no_code`].
+    pub code: Option<u64>,
     /// The error of `eval_cos`.
     pub error: Errors,
     /// The largest relative error of the directional albedo.
@@ -308,6 +312,8 @@ pub struct Bench {
     pairs: ([Vec<f32>; 3], [Vec<f32>; 3]),
     quadrature: Quadrature,
     sphere: Sphere,
+    /// Or why it is not known.
+    code: Result<Code, String>,
 }
 
 impl std::fmt::Debug for Bench {
@@ -334,7 +340,15 @@ impl Bench {
             pairs: (columns(|pair| pair.0), columns(|pair| pair.1)),
             quadrature: Quadrature::new(),
             sphere: Sphere::new(effort.sphere),
+            code: Code::of_this_program(),
         }
+    }
+
+    /// Why no row has [`Row::code`], in a line. Where this is `None` a row may still lack it: if the program has no function
+    /// of the name that it should have.
+    #[must_use]
+    pub fn no_code(&self) -> Option<&str> {
+        self.code.as_ref().err().map(String::as_str)
     }
 
     /// Times and compares every form of the subject in each of the numbers.
@@ -359,6 +373,7 @@ impl Bench {
                 resident,
                 streaming,
                 all_cores: self.all_cores(runner),
+                code: self.code.as_ref().ok().and_then(|code| code.bytes(&form.material, *number)),
                 error: reference.error(self, runner),
                 albedo: reference.albedo(self, runner),
                 seen: reference.seen(self, runner),

@@ -137,7 +137,7 @@ constructor! { coat |p, finish| {
 
 /// What the base is scaled with is 1 less something near 1: its error counts as far as the base is seen.
 fn sheen_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
-    let (base, layered) = (gltf::brdf(p).eval(l, v), gltf_sheen::brdf(p).eval(l, v));
+    let (base, layered) = (gltf::brdf(p).brdf.eval(l, v), gltf_sheen::brdf(p).brdf.eval(l, v));
     let seen = [base.r / layered.r, base.g / layered.g, base.b / layered.b].into_iter().fold(0.0, f64::max);
     Bound::WORST + super::diffuse::of_sheen(alpha(p, "sheen-roughness").0, l, v) + 40.0 * seen / 16_777_216.0
 }

@@ -115,7 +115,7 @@ mod any {
         }
         match p.choice(DISTRIBUTION.name) {
             "beckmann" => common!(Beckmann::anisotropic(x, y), "smith-correlated" SmithCorrelated),
-            "blinn" | "gtr" | "gaussian" | "student-t" => pointwise_any(terms(p).into_brdf()),
+            "blinn" | "gtr" | "gaussian" | "student-t" => pointwise_any(crate::terms::built(terms(p))),
             _ => common!(
                 Ggx::anisotropic(x, y),
                 "smith-correlated" SmithCorrelated

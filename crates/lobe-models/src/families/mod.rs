@@ -21,7 +21,7 @@ macro_rules! constructor {
         mod $name {
             #[allow(unused_imports, reason = "each constructor uses some of them")]
             use super::*;
-            pub(super) fn brdf<R: crate::Number>($reader: &crate::Reader<'_, R>) -> crate::AnyBrdf<R> {
+            pub(super) fn brdf<R: crate::Number>($reader: &crate::Reader<'_, R>) -> crate::number::Built<R> {
                 use crate::number::boxed as $finish;
                 $body
             }
@@ -67,9 +67,9 @@ macro_rules! constructors {
     };
     (facets: $facets:ident) => {
         crate::catalogue::Constructors {
-            f32: |p| $facets::terms(p).into_brdf(),
-            f64: |p| $facets::terms(p).into_brdf(),
-            half: |p| $facets::terms(p).into_brdf(),
+            f32: |p| crate::terms::built($facets::terms(p)),
+            f64: |p| crate::terms::built($facets::terms(p)),
+            half: |p| crate::terms::built($facets::terms(p)),
             #[cfg(feature = "batch")]
             batch: $facets::batch,
             terms: Some(|p| $facets::terms(p)),
