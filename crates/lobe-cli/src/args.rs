@@ -99,6 +99,7 @@ impl Default for ReportArgs {
 
 const REPORT_HELP: &str = "\
 Writes DIR/index.html, one page that needs no other file, and DIR/report.json with the same facts.
+The section on what digits cost is timed on this machine: run it when nothing else runs. `lobe trade` measures more.
 
 Examples:
   lobe report

@@ -9,7 +9,7 @@ use crate::render;
 use lobe::batch::{Level, levels};
 use lobe::{Rgb, Shininess};
 use lobe_models::{Lobe, Material, Value, model, nearest};
-use lobe_scene::{Surface, check_writable};
+use lobe_scene::{Scene, Surface, check_writable};
 use lobe_trade::{Bench, Effort, Number, Row, Subject, catalogue, is_noisy};
 use serde_json::json;
 use std::fmt::Write as _;
@@ -79,27 +79,12 @@ pub(crate) fn run(args: &TradeArgs, quiet: bool, json: bool) -> Result<(), Failu
 /// What is to be measured: the materials of a scene, one of the catalogue, or all of that.
 fn subjects(args: &TradeArgs) -> Result<Vec<Subject>, Failure> {
     if let Some(path) = &args.scene {
-        let scene = render::open(Some(path), None)?;
-        // As the views show them: what one puts in the place of a material is a material of the scene too.
-        let mut materials: Vec<Material> = Vec::new();
-        for view in &scene.views {
-            for material in view.materials_of(&scene.materials).iter() {
-                let Some(mut lobes) = of_surface(&material.name, &material.surface) else { continue };
-                let known = |lobes: &Material| materials.iter().any(|m| m.name == lobes.name && m.lobes == lobes.lobes);
-                if known(&lobes) {
-                    continue;
-                }
-                if materials.iter().any(|other| other.name == lobes.name) {
-                    lobes.name = format!("{}, view {}", lobes.name, view.name);
-                }
-                materials.push(lobes);
-            }
-        }
-        if materials.is_empty() {
+        let all = of_scene(&render::open(Some(path), None)?);
+        if all.is_empty() {
             let path = path.display();
             return Err(Failure::Input(format!("{path}: no material of this scene has lobes; give one that reflects")));
         }
-        return Ok(materials.iter().map(Subject::of_material).collect());
+        return Ok(all);
     }
     let all = catalogue();
     let Some(name) = &args.only else { return Ok(all) };
@@ -108,6 +93,27 @@ fn subjects(args: &TradeArgs) -> Result<Vec<Subject>, Failure> {
         Some(subject) => Ok(vec![subject]),
         None => Err(Failure::Usage(format!("unknown subject `{name}` for --only; the nearest are {near}"))),
     }
+}
+
+/// The materials of a scene that have lobes.
+pub(crate) fn of_scene(scene: &Scene) -> Vec<Subject> {
+    // As the views show them: what one puts in the place of a material is a material of the scene too.
+    let mut materials: Vec<Material> = Vec::new();
+    for view in &scene.views {
+        for material in view.materials_of(&scene.materials).iter() {
+            let lobes = of_surface(&material.name, &material.surface);
+            let Some(mut lobes) = lobes.filter(|lobes| !lobes.lobes.is_empty()) else { continue };
+            let known = |lobes: &Material| materials.iter().any(|m| m.name == lobes.name && m.lobes == lobes.lobes);
+            if known(&lobes) {
+                continue;
+            }
+            if materials.iter().any(|other| other.name == lobes.name) {
+                lobes.name = format!("{}, view {}", lobes.name, view.name);
+            }
+            materials.push(lobes);
+        }
+    }
+    materials.iter().map(Subject::of_material).collect()
 }
 
 /// The lobes of a material of a scene, by the names of the catalogue; nothing for one that is black.
@@ -138,7 +144,7 @@ fn of_surface(name: &str, surface: &Surface) -> Option<Material> {
 }
 
 /// The machine, as far as it matters for a time: no name of a host.
-fn machine() -> String {
+pub(crate) fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let names: Vec<_> = levels(Level::new()).map(|(name, _)| name).collect();
     let s = if cores == 1 { "" } else { "s" };
@@ -154,7 +160,7 @@ fn processor() -> String {
 }
 
 /// An error in three or four letters.
-fn short(error: f64) -> String {
+pub(crate) fn short(error: f64) -> String {
     if error == 0.0 { "0".to_owned() } else { format!("{error:.0e}") }
 }
 
@@ -171,7 +177,7 @@ fn no_code(rows: &[Row], none_at_all: Option<&str>) -> Option<String> {
 }
 
 /// The form and the number, without what need not be said.
-fn what(row: &Row) -> String {
+pub(crate) fn what(row: &Row) -> String {
     if row.form == EXACT { row.number.name() } else { format!("{}, {}", row.number.name(), row.form) }
 }
 
@@ -218,17 +224,17 @@ fn table(rows: &[Row]) -> String {
 }
 
 /// The rows that a choice is made between and measured against.
-struct Choice<'a> {
+pub(crate) struct Choice<'a> {
     /// The cheapest within the budget.
-    cheapest: Option<&'a Row>,
+    pub(crate) cheapest: Option<&'a Row>,
     /// The scalar `f32`, which is what a renderer has that thinks of nothing.
-    scalar: Option<&'a Row>,
+    pub(crate) scalar: Option<&'a Row>,
     /// The cheapest with all digits.
     precise: Option<&'a Row>,
 }
 
 impl<'a> Choice<'a> {
-    fn of(rows: &'a [Row], budget: f64) -> Self {
+    pub(crate) fn of(rows: &'a [Row], budget: f64) -> Self {
         let cheapest = |good: &dyn Fn(&Row) -> bool| {
             let good = rows.iter().filter(|row| good(row));
             good.min_by(|a, b| a.resident.median.total_cmp(&b.resident.median))
@@ -284,7 +290,7 @@ fn row_facts(row: &Row) -> serde_json::Value {
     })
 }
 
-fn facts(all: &[Vec<Row>], budget: Option<f64>, no_code: Option<&str>) -> serde_json::Value {
+pub(crate) fn facts(all: &[Vec<Row>], budget: Option<f64>, no_code: Option<&str>) -> serde_json::Value {
     let subjects: Vec<_> = all
         .iter()
         .filter_map(|rows| {
@@ -395,9 +401,9 @@ fn markdown(all: &[Vec<Row>], noisy: bool, no_code: Option<&str>) -> String {
 }
 
 /// The colours of the plot.
-const KINDS: [&str; 6] = ["f64", "f32", "other scalar", "precise", "fast", "coarse"];
+pub(crate) const KINDS: [&str; 6] = ["f64", "f32", "other scalar", "precise", "fast", "coarse"];
 
-fn dots(rows: &[Row]) -> Vec<Dot> {
+pub(crate) fn dots(rows: &[Row]) -> Vec<Dot> {
     let kind = |number: Number| match number {
         Number::F64 => 0,
         Number::F32 => 1,

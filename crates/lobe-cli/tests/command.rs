@@ -478,7 +478,7 @@ fn a_report_is_one_page_that_needs_nothing_else() {
     }
     assert!(!page.contains("NaN<") && page.ends_with("</html>\n"));
     // A tag that is opened is closed.
-    for tag in ["section", "div", "table", "figure", "svg", "tr", "td", "p", "ul", "g"] {
+    for tag in ["section", "div", "table", "figure", "details", "svg", "tr", "td", "p", "ul", "g"] {
         let opened = page.matches(&format!("<{tag} ")).count() + page.matches(&format!("<{tag}>")).count();
         assert_eq!(opened, page.matches(&format!("</{tag}>")).count(), "{tag}");
     }

@@ -132,3 +132,71 @@ fn what_is_wrong_is_said() {
     fails(&["trade", "--only", "wrad"], 2, "unknown subject `wrad` for --only; the nearest are ward");
     fails(&["trade", "--only", "ward", "--quick", "--csv", "no/such/folder.csv"], 4, "cannot write this");
 }
+
+#[test]
+fn the_report_shows_what_the_digits_of_each_material_cost() {
+    let folder = scene();
+    let two = SCENE.replacen(
+        r#"{"obj""#,
+        r#"{"views": [{"name": "a"}, {"name": "b", "materials": {"*": "paper"}}], "obj""#,
+        1,
+    );
+    fs::write(folder.path().join("two.json"), two).expect("a file");
+    let run = lobe_in(folder.path(), &["report", "two.json", "-o", "out", "--width", "64", "--samples", "1", "-q"]);
+    assert_eq!((text(&run.stderr).as_str(), run.status.code()), ("", Some(0)));
+
+    let facts = fs::read(folder.path().join("out/report.json")).expect("a file");
+    let facts: serde_json::Value = serde_json::from_slice(&facts).expect("JSON");
+    let subjects = facts["trade"]["subjects"].as_array().expect("a list");
+    let names: Vec<_> = subjects.iter().map(|subject| subject["subject"].as_str().expect("a name")).collect();
+    assert_eq!(names, ["paint", "paint, view b"]);
+    // The scalar f32 and three precisions of the best level; without lanes, all three scalars.
+    let numbers = if lobe::batch::levels(lobe::batch::Level::new()).count() == 0 { 3 } else { 4 };
+    let rows: Vec<_> = subjects.iter().map(|subject| subject["rows"].as_array().expect("rows")).collect();
+    let forms = |rows: &[serde_json::Value]| rows.iter().filter(|row| row["number"] == "f32").count();
+    assert!(forms(rows[0]) > 5 && forms(rows[1]) == 1, "{rows:#?}");
+    for (subject, rows) in subjects.iter().zip(&rows) {
+        assert_eq!(rows.len(), numbers * forms(rows));
+        assert!(rows.iter().all(|row| row["ns"]["median"].as_f64() > Some(0.0) && row["ns_streaming"].is_null()));
+        // The fastest of all is in front.
+        let fastest = rows
+            .iter()
+            .min_by(|a, b| a["ns"]["median"].as_f64().partial_cmp(&b["ns"]["median"].as_f64()).expect("numbers"));
+        assert_eq!(fastest.map(|row| &row["on_front"]), Some(&true.into()));
+        assert!(subject["choice"]["steps_of_8_bits"].as_u64() <= Some(1), "{subject:#}");
+    }
+    assert!(facts["seconds"]["trade"].as_f64() > Some(0.0) && facts["trade"]["noisy"].is_boolean());
+
+    let page = fs::read_to_string(folder.path().join("out/index.html")).expect("a page");
+    assert_eq!(page.matches(": time against error</title>").count(), subjects.len());
+    assert_eq!(page.matches("<figure class=\"plot trade\">").count(), subjects.len());
+    assert_eq!(page.matches("</details>").count(), subjects.len());
+    let section = page.split("<section id=\"trade\">").nth(1).and_then(|rest| rest.split("</section>").next());
+    let section = section.expect("a section");
+    let shown =
+        |on_front: bool| rows.iter().flat_map(|rows| rows.iter()).filter(|row| row["on_front"] == on_front).count();
+    // The rows in front twice, the others once.
+    assert_eq!(section.matches("<th scope=\"row\">").count(), 2 * shown(true) + shown(false));
+    assert!(section.contains("The cheapest within 1/255: <b>") && !section.contains("NaN") && !section.contains("inf"));
+}
+
+#[test]
+fn what_is_black_costs_nothing() {
+    let folder = scene();
+    let black = "newmtl paint\nKd 0.5 0.5 0.5\nillum 0\n";
+    fs::write(folder.path().join("box.mtl"), black).expect("a file");
+    let none = r#"{"obj": "box.obj", "materials": {"paint": {"lobes": []}}}"#;
+    fs::write(folder.path().join("none.json"), none).expect("a file");
+    for scene in ["box.obj", "none.json"] {
+        let run = lobe_in(folder.path(), &["report", scene, "-o", "out", "--width", "64", "--samples", "1", "-q"]);
+        assert_eq!((text(&run.stderr).as_str(), run.status.code()), ("", Some(0)), "{scene}");
+        let page = fs::read_to_string(folder.path().join("out/index.html")).expect("a page");
+        assert!(page.ends_with("</html>\n") && !page.contains("What digits cost"), "{scene}");
+        let facts = fs::read(folder.path().join("out/report.json")).expect("a file");
+        let facts: serde_json::Value = serde_json::from_slice(&facts).expect("JSON");
+        assert!(facts.get("trade").is_none(), "{scene}");
+        let run = lobe_in(folder.path(), &["trade", scene]);
+        assert_eq!(run.status.code(), Some(3), "{scene}");
+        assert!(text(&run.stderr).contains("no material of this scene has lobes"), "{scene}");
+    }
+}

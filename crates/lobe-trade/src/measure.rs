@@ -66,9 +66,9 @@ pub struct Effort {
     pub block: Duration,
     /// How many bytes are streamed, inputs and outputs together.
     pub stream: usize,
-    /// How often.
+    /// How often. With 0 these times are NaN.
     pub stream_rounds: usize,
-    /// How long all cores run at once.
+    /// How long all cores run at once. With zero they do not, and what they do in a second is NaN.
     pub parallel: Duration,
     /// How many pairs of directions an error is taken from.
     pub pairs: usize,
@@ -473,6 +473,9 @@ impl Bench {
             })
         }
         let time = self.effort.parallel;
+        if time.is_zero() {
+            return f64::NAN;
+        }
         match runner {
             Runner::F32(brdf) => run(&self.f32.resident, time, |points| points.shade(brdf)),
             Runner::F64(brdf) => run(&self.f64.resident, time, |points| points.shade(brdf)),

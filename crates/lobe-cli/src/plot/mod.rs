@@ -11,7 +11,7 @@ mod terms;
 
 pub(crate) use compare::{compare, compare_panel};
 pub(crate) use curve::{curve, slices};
-pub(crate) use pareto::{Dot, pareto};
+pub(crate) use pareto::{Dot, front, pareto, pareto_panel};
 pub(crate) use polar::{distribution, polar};
 pub(crate) use surface::surface;
 pub(crate) use terms::{Cut, Facets, terms};

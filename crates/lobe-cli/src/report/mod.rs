@@ -6,6 +6,7 @@ mod materials;
 mod page;
 mod pictures;
 mod random;
+mod trade;
 
 use crate::args::ReportArgs;
 use crate::error::Failure;
@@ -22,6 +23,7 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::time::Instant;
+use trade::Trade;
 
 /// Everything that the page shows, and `report.json` holds.
 #[derive(Debug, Serialize)]
@@ -34,6 +36,9 @@ pub(crate) struct Facts {
     pub(crate) views: Vec<Picture>,
     pub(crate) materials: Vec<MaterialFacts>,
     pub(crate) checks: Vec<Check>,
+    /// Nothing where no material has lobes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) trade: Option<Trade>,
     pub(crate) warnings: Vec<String>,
     pub(crate) seconds: Seconds,
 }
@@ -54,6 +59,7 @@ pub(crate) struct Seconds {
     pub(crate) render: f64,
     pub(crate) energy: f64,
     pub(crate) checks: f64,
+    pub(crate) trade: f64,
     pub(crate) total: f64,
 }
 
@@ -105,6 +111,11 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
     drop(bar);
     let check_seconds = start_checks.elapsed().as_secs_f64();
 
+    // After all that runs on many cores: what works beside it would be in the times.
+    let start_trade = Instant::now();
+    let trade = trade::measure(&scene, quiet);
+    let trade_seconds = start_trade.elapsed().as_secs_f64();
+
     let plots = plots(&shown);
     let warnings = scene.warnings.iter().map(ToString::to_string).chain(more_warnings).collect();
     let total = start.elapsed().as_secs_f64();
@@ -119,8 +130,9 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
         views,
         materials,
         checks,
+        trade,
         warnings,
-        seconds: Seconds { load, render, energy, checks: check_seconds, total },
+        seconds: Seconds { load, render, energy, checks: check_seconds, trade: trade_seconds, total },
     };
     let facts_json = serde_json::to_string_pretty(&facts)
         .map_err(|error| Failure::Write(format!("report.json: cannot write this as JSON: {error}; report this")))?;

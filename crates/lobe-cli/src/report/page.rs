@@ -3,8 +3,12 @@
 use super::checks::Check;
 use super::materials::{LobeFacts, MaterialFacts, SHOWN};
 use super::pictures::Picture;
+use super::trade::{BUDGET, EFFORT, Trade};
 use super::{Facts, Plot, base64};
-use crate::plot::svg::{escape, style};
+use crate::plot::svg::{escape, label, style};
+use crate::plot::{front, pareto_panel};
+use crate::trade::{Choice, KINDS, dots, machine, short, what};
+use lobe_trade::Row;
 use std::fmt::Write as _;
 
 const CSS: &str = "\
@@ -42,6 +46,7 @@ pre{background:var(--card);border:1px solid var(--line);border-radius:8px;paddin
 .good{color:var(--good);background:var(--good-back)}.bad{color:var(--bad);background:var(--bad-back)}\
 .swatch{display:inline-block;width:.9em;height:.9em;border-radius:3px;border:1px solid var(--line);\
 vertical-align:-.1em;margin-right:6px}\
+.trade .scroll{margin:12px 0 8px}.trade th,.trade td{padding:5px 9px}summary{cursor:pointer;font-size:.93rem}\
 .check{margin:26px 0}.check td{white-space:nowrap}.check td.where{white-space:normal}.check h3 .tag{margin-left:8px}\
 dl{display:grid;grid-template-columns:max-content 1fr;gap:4px 22px;margin:12px 0}dt{color:var(--soft)}dd{margin:0}\
 footer{padding-top:34px;padding-bottom:48px;color:var(--soft);font-size:.9rem}\
@@ -72,6 +77,9 @@ pub(crate) fn html(facts: &Facts, plots: &[Plot]) -> String {
     lobes(&mut page, plots);
     materials(&mut page, &facts.materials);
     checks(&mut page, &facts.checks);
+    if let Some(measured) = &facts.trade {
+        trade(&mut page, measured);
+    }
     warnings(&mut page, &facts.warnings);
     run(&mut page, facts);
     let _ = write!(
@@ -100,12 +108,13 @@ fn header(page: &mut String, facts: &Facts, title: &str) {
         page,
         "<header>\n<h1>{}</h1>\n<p>{} triangles, {} materials, {} views. {checks} Of the materials, {energy}.</p>\n\
          <nav aria-label=\"Sections\"><a href=\"#views\">Views</a><a href=\"#lobes\">Lobes</a>\
-         <a href=\"#materials\">Materials</a><a href=\"#checks\">Checks</a><a href=\"#warnings\">Warnings</a>\
+         <a href=\"#materials\">Materials</a><a href=\"#checks\">Checks</a>{}<a href=\"#warnings\">Warnings</a>\
          <a href=\"#run\">This run</a></nav>\n</header>\n",
         escape(title),
         facts.scene.triangles,
         facts.materials.len(),
-        facts.views.len()
+        facts.views.len(),
+        if facts.trade.is_some() { "<a href=\"#trade\">What digits cost</a>" } else { "" }
     );
 }
 
@@ -285,6 +294,85 @@ fn checks(page: &mut String, checks: &[Check]) {
     page.push_str("</section>\n");
 }
 
+/// What digits cost: for each material a plot, the rows that are worth it, and all of them.
+fn trade(page: &mut String, measured: &Trade) {
+    let left_out = match measured.left_out {
+        0 => String::new(),
+        1 => " 1 more material is left out.".to_owned(),
+        more => format!(" {more} more materials are left out."),
+    };
+    let steady = if measured.noisy {
+        let text =
+            "The machine was too busy for these times to be trusted; run the report again when nothing else runs.";
+        format!("{} {text}", tag(false, "noisy"))
+    } else {
+        "The times were steady.".to_owned()
+    };
+    let _ = write!(
+        page,
+        "<section id=\"trade\">\n<h2>What digits cost</h2>\n<p>Nanoseconds for one evaluation of each material, against its \
+         error: with fewer digits, and with approximations in place of its parts, where it has some. The table has what is worth \
+         it, the fastest first: no other row is both faster and nearer. Errors are relative, against f64, of 99 in 100 and the \
+         worst; what is seen is the largest CIE ΔE 2000, and the largest difference of a channel in steps of eight bits, on a sphere under three \
+         lights.</p>\n<p>Measured on: {}. {steady}</p>\n<p class=\"soft\">Only a little was measured: {}. A time is the median of \
+         {} short runs from the cache; the errors are of {} pairs of directions and of a picture of {} pixels in a row.{left_out} \
+         <code>lobe trade SCENE</code> measures every number type and level, from the cache, from memory and on all cores, \
+         and more closely.</p>\n<div class=\"grid\">\n",
+        escape(machine().trim_end()),
+        escape(&measured.numbers),
+        EFFORT.rounds,
+        EFFORT.pairs,
+        EFFORT.sphere
+    );
+    for rows in &measured.rows {
+        let Some(first) = rows.first() else { continue };
+        let dots = dots(rows);
+        let best: Vec<&Row> = front(&dots).into_iter().filter_map(|index| rows.get(index)).collect();
+        let choice = Choice::of(rows, BUDGET);
+        let cheapest = match (choice.cheapest, choice.scalar) {
+            (None, _) => "Nothing is within 1/255.".to_owned(),
+            (Some(row), scalar) => {
+                let time = |row: &Row| label(row.resident.median);
+                let than = scalar.map_or(String::new(), |row| format!("; the scalar f32 takes {} ns", time(row)));
+                format!("The cheapest within 1/255: <b>{}</b>, {} ns{than}.", escape(&what(row)), time(row))
+            }
+        };
+        let _ = write!(
+            page,
+            "<figure class=\"plot trade\"><h3>{}</h3>\n{}<figcaption>{cheapest}</figcaption>\n",
+            escape(&first.subject),
+            pareto_panel(&first.subject, &dots, &KINDS).inline()
+        );
+        trade_table(page, best.into_iter());
+        let _ = writeln!(page, "<details><summary>All {} rows</summary>", rows.len());
+        trade_table(page, rows.iter());
+        page.push_str("</details></figure>\n");
+    }
+    page.push_str("</div>\n</section>\n");
+}
+
+fn trade_table<'a>(page: &mut String, rows: impl Iterator<Item = &'a Row>) {
+    page.push_str(
+        "<div class=\"scroll\"><table><thead><tr><th>number</th><th>form</th><th class=\"n\">ns</th><th class=\"n\">99 %</th>\
+         <th class=\"n\">worst</th><th class=\"n\">ΔE</th><th class=\"n\">8 bit</th></tr></thead>\n<tbody>\n",
+    );
+    for row in rows {
+        let _ = writeln!(
+            page,
+            "<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>\
+             <td class=\"n\">{:.2}</td><td class=\"n\">{}</td></tr>",
+            escape(&row.number.name()),
+            escape(&row.form),
+            label(row.resident.median),
+            short(row.error.p99),
+            short(row.error.worst),
+            row.seen.worst,
+            row.seen.steps
+        );
+    }
+    page.push_str("</tbody></table></div>\n");
+}
+
 fn warnings(page: &mut String, warnings: &[String]) {
     page.push_str("<section id=\"warnings\">\n<h2>Warnings</h2>\n");
     if warnings.is_empty() {
@@ -307,7 +395,7 @@ fn run(page: &mut String, facts: &Facts) {
         "<section id=\"run\">\n<h2>This run</h2>\n<p>The same report again:</p>\n<pre><code>{}</code></pre>\n<dl>\n\
          <dt>scene</dt><dd>{}: {} triangles in {} meshes</dd>\n<dt>reading</dt><dd>{:.2} s</dd>\n\
          <dt>pictures</dt><dd>{:.2} s, {samples} rays a pixel</dd>\n<dt>albedos</dt><dd>{:.2} s</dd>\n\
-         <dt>checks</dt><dd>{:.2} s</dd>\n<dt>in all</dt><dd>{:.2} s</dd>\n<dt>version</dt><dd>lobe {}</dd>\n</dl>\n\
+         <dt>checks</dt><dd>{:.2} s</dd>\n<dt>times</dt><dd>{:.2} s</dd>\n<dt>in all</dt><dd>{:.2} s</dd>\n<dt>version</dt><dd>lobe {}</dd>\n</dl>\n\
          </section>\n",
         escape(&facts.command),
         escape(&scene.source),
@@ -317,6 +405,7 @@ fn run(page: &mut String, facts: &Facts) {
         seconds.render,
         seconds.energy,
         seconds.checks,
+        seconds.trade,
         seconds.total,
         facts.version
     );
