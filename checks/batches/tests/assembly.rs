@@ -214,7 +214,12 @@ fn check(name: &str, arguments: &[&str]) {
             let what = format!("{level} {} {}", named.kernel, named.precision);
             let found = find(&functions, level, precision, &format!("EvalCos<{}>", named.type_name));
             let found = found.unwrap_or_else(|| panic!("{what}: there is no such function"));
-            println!("{what}: {} instructions, {} of them spills", found.instructions, found.spills);
+            let Loop { instructions, arithmetic, spills, scalar, .. } = &found;
+            let scalar = scalar.len();
+            println!(
+                "{what}: {instructions} instructions, {arithmetic} arithmetic ones on lanes, {scalar} on one number, \
+                 {spills} spills"
+            );
             // Lambert's factor and three colours: less is not the loop.
             assert!(found.arithmetic >= 4, "{what}: {found:?}");
             faults.extend(found.faults().into_iter().map(|fault| format!("{what}: {fault}")));
