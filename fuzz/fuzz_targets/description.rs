@@ -12,7 +12,7 @@ fuzz_target!(|input: &[u8]| {
         Ok(scene) => {
             assert!(!scene.views.is_empty());
             let Ok(renderer) = Renderer::new(&scene) else { panic!("a scene that was read can be drawn") };
-            let settings = Settings { width: 3, height: 2, samples: 1, depth: 2 };
+            let settings = Settings { width: 3, height: 2, depth: 2, ..Settings::default() };
             for view in scene.views.iter().take(4) {
                 // A view with its own camera was checked while it was read; a framed one may be out of reach.
                 let image = renderer.render(view, &settings, None);

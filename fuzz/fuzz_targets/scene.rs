@@ -21,7 +21,7 @@ fuzz_target!(|input: &[u8]| {
             Ok(renderer) => renderer,
             Err(error) => panic!("a model that was read can be drawn: {error}"),
         };
-        let settings = Settings { width: 4, height: 4, samples: 1, depth: 3 };
+        let settings = Settings { width: 4, height: 4, depth: 3, ..Settings::default() };
         let image = match renderer.render(&View::default(), &settings, None) {
             Ok(image) => image,
             Err(error) => panic!("the default view can be taken of any model: {error}"),

@@ -138,7 +138,7 @@ fn the_report_shows_what_the_digits_of_each_material_cost() {
     let folder = scene();
     let two = SCENE.replacen(
         r#"{"obj""#,
-        r#"{"views": [{"name": "a"}, {"name": "b", "materials": {"*": "paper"}}], "obj""#,
+        r#"{"views": [{"name": "a"}, {"name": "b", "materials": {"paint": "paper"}}], "obj""#,
         1,
     );
     fs::write(folder.path().join("two.json"), two).expect("a file");
