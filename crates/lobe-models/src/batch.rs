@@ -149,11 +149,9 @@ pub(crate) struct Compiled<B>(B);
 
 impl<B> BatchBrdf for Compiled<B>
 where
-    B: Copy
-        + Carry<
-            In<Approximate<f32, Fast>>: Brdf<Approximate<f32, Fast>> + Send + Sync + 'static,
-            In<Approximate<f32, Coarse>>: Brdf<Approximate<f32, Coarse>> + Send + Sync + 'static,
-        >,
+    B: Copy + Carry,
+    B::In<Approximate<f32, Fast>>: Brdf<Approximate<f32, Fast>> + Send + Sync + 'static,
+    B::In<Approximate<f32, Coarse>>: Brdf<Approximate<f32, Coarse>> + Send + Sync + 'static,
     for<'b> Shade<B>: AtEveryLevel<Precise, Inputs<'b>, Rgb<&'b mut [f32]>>
         + AtEveryLevel<Fast, Inputs<'b>, Rgb<&'b mut [f32]>>
         + AtEveryLevel<Coarse, Inputs<'b>, Rgb<&'b mut [f32]>>,
