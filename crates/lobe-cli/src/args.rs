@@ -1,7 +1,10 @@
 //! The command line.
 
 use clap::{Args as ArgsOf, Parser, Subcommand, ValueEnum};
+use lobe::Rgb;
 use lobe_models::AnyPrecision;
+use lobe_scene::image::Tone;
+use lobe_scene::{Background, Camera, Light};
 use std::path::PathBuf;
 
 /// Shading lobes: look at them, evaluate them, check them.
@@ -44,6 +47,9 @@ pub(crate) enum Command {
     /// Render a view of a scene
     #[command(after_help = RENDER_HELP)]
     Render(RenderArgs),
+    /// Compare two pictures: in numbers, and to the eye
+    #[command(after_help = DIFF_HELP)]
+    Diff(DiffArgs),
     /// Evaluate a BRDF for pairs of directions: CSV in, CSV out
     #[command(after_help = eval_help())]
     Eval(EvalArgs),
@@ -73,7 +79,7 @@ pub(crate) enum Command {
 /// `lobe report`.
 #[derive(Debug, ArgsOf)]
 pub(crate) struct ReportArgs {
-    /// The scene, .json or .obj; the built-in one without it
+    /// The scene, .gltf, .glb, .obj or .json; the built-in one without it
     pub(crate) scene: Option<PathBuf>,
     /// The folder to write index.html and report.json into; made if it is not there
     #[arg(long, short, default_value = "lobe-report")]
@@ -109,7 +115,7 @@ Examples:
 /// `lobe render`.
 #[derive(Debug, ArgsOf)]
 pub(crate) struct RenderArgs {
-    /// The scene, .json or .obj; the built-in one without it
+    /// The scene, .gltf, .glb, .obj or .json; the built-in one without it
     pub(crate) scene: Option<PathBuf>,
     /// The picture to write: .png (sRGB), .exr or .pfm (linear)
     #[arg(long, short)]
@@ -123,8 +129,25 @@ pub(crate) struct RenderArgs {
     /// Rows
     #[arg(long, default_value_t = 720, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=32768))]
     pub(crate) height: u32,
+    /// Both at once, such as 640x360
+    #[arg(long, value_name = "WxH", conflicts_with_all = ["width", "height"], value_parser = parse_size)]
+    pub(crate) size: Option<[u32; 2]>,
+    /// Another camera: EYE:TARGET, or EYE:TARGET:FOV with the angle in degrees, such as 0,1,5:0,1,0:40
+    #[arg(long, value_name = "CAMERA", allow_hyphen_values = true, value_parser = parse_camera)]
+    pub(crate) camera: Option<Camera>,
+    /// A light in place of those of the view; may be given again. point:X,Y,Z:I, in W/sr, or sun:X,Y,Z:E, the direction
+    /// to it and the irradiance; I and E are a number or R,G,B
+    #[arg(long, value_name = "LIGHT", allow_hyphen_values = true, value_parser = parse_light)]
+    pub(crate) light: Vec<Light>,
+    /// The radiance around the scene: a number or R,G,B, or two of them, BOTTOM:TOP. Its mean is the
+    /// ambient light
+    #[arg(long, value_name = "RADIANCE", allow_hyphen_values = true, value_parser = parse_environment)]
+    pub(crate) environment: Option<Background>,
+    /// How bright colours are brought into the range: none, reinhard, aces-fit or pbr-neutral (.png only)
+    #[arg(long, default_value_t = Tone::None, value_parser = parse_tone)]
+    pub(crate) tone: Tone,
     /// Rays for each pixel, 1 to 4096
-    #[arg(long, default_value_t = 4, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, alias = "spp", default_value_t = 4, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub(crate) samples: u32,
     /// How many digits the lobes are asked for: precise, fast or coarse
     #[arg(long, default_value_t = AnyPrecision::Precise, value_parser = parse_precision)]
@@ -157,6 +180,8 @@ Examples:
   lobe render scene.json --view top --samples 16 -o top.exr
   lobe render model.obj --shading normalized-phong -o model.png
   lobe render --material dark-blue-paint --model cook-torrance -o paint.png
+  lobe render helmet.glb --size 640x640 --environment 0.2:0.8 --tone pbr-neutral -o helmet.png
+  lobe render model.obj --camera 0,1,5:0,1,0 --light sun:1,1,1:3 -o model.png
   lobe render model.obj --material ggx-gold -o gold.png
   lobe render --contact-sheet --model ward -o sheet.png";
 
@@ -169,10 +194,113 @@ fn parse_precision(text: &str) -> Result<AnyPrecision, String> {
     })
 }
 
+/// A curve by its name.
+fn parse_tone(text: &str) -> Result<Tone, String> {
+    Tone::ALL.into_iter().find(|tone| tone.name() == text).ok_or_else(|| {
+        let names = Tone::ALL.map(Tone::name).join(", ");
+        format!("it is one of {names}")
+    })
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+    let sides = sides.filter(|sides: &[u32; 2]| sides.iter().all(|side| (1..=32768).contains(side)));
+    sides.ok_or_else(|| "two numbers from 1 to 32768, such as 640x360".to_owned())
+}
+
+/// Three finite numbers with commas between them.
+fn triple(text: &str) -> Option<[f32; 3]> {
+    let mut parts = text.split(',').map(|part| part.trim().parse::<f32>().ok().filter(|x| x.is_finite()));
+    let triple = [parts.next()??, parts.next()??, parts.next()??];
+    parts.next().is_none().then_some(triple)
+}
+
+/// A grey or a colour of light.
+fn radiance(text: &str) -> Option<Rgb> {
+    let colour = match text.trim().parse::<f32>() {
+        Ok(grey) => [grey; 3],
+        Err(_) => triple(text)?,
+    };
+    colour.iter().all(|part| part.is_finite() && *part >= 0.0).then(|| colour.into())
+}
+
+fn parse_camera(text: &str) -> Result<Camera, String> {
+    let expected = "EYE:TARGET or EYE:TARGET:FOV, such as 0,1,5:0,1,0:40";
+    let mut parts = text.split(':');
+    let points = parts.next().and_then(triple).zip(parts.next().and_then(triple));
+    let (eye, target) = points.ok_or(expected)?;
+    let fov_y_degrees = match (parts.next(), parts.next()) {
+        (None, _) => 35.0,
+        (Some(angle), None) => angle.parse().map_err(|_| expected)?,
+        _ => return Err(expected.to_owned()),
+    };
+    let camera = Camera { eye: eye.into(), target: target.into(), fov_y_degrees, ..Camera::default() };
+    camera.check().map_err(|error| error.to_string())?;
+    Ok(camera)
+}
+
+fn parse_light(text: &str) -> Result<Light, String> {
+    let mut parts = text.splitn(3, ':');
+    let (kind, place, strength) = (parts.next(), parts.next().and_then(triple), parts.next().and_then(radiance));
+    match (kind, place, strength) {
+        (Some("point"), Some(place), Some(intensity)) => {
+            Ok(Light::Point { position: place.into(), intensity, radius: 0.0 })
+        }
+        (Some("sun"), Some(place), Some(irradiance)) if place != [0.0; 3] => {
+            Ok(Light::Directional { to_light: place.into(), irradiance })
+        }
+        _ => Err("point:X,Y,Z:I or sun:X,Y,Z:E, such as point:2,4,3:90 or sun:0,1,1:3,2.8,2.5".to_owned()),
+    }
+}
+
+fn parse_environment(text: &str) -> Result<Background, String> {
+    let expected = || "a radiance such as 0.5 or 0.2,0.3,0.5, or two of them, BOTTOM:TOP".to_owned();
+    match text.split_once(':') {
+        None => radiance(text).map(Background::Solid).ok_or_else(expected),
+        Some((bottom, top)) => match (radiance(bottom), radiance(top)) {
+            (Some(bottom), Some(top)) => Ok(Background::Gradient { bottom, top }),
+            _ => Err(expected()),
+        },
+    }
+}
+
 fn parse_stops(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(stops) if stops.abs() <= 100.0 => Ok(stops),
         _ => Err("a number of stops from -100 to 100, such as 1.5".to_owned()),
+    }
+}
+
+/// `lobe diff`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct DiffArgs {
+    /// A picture: .png (sRGB), .exr or .pfm (linear)
+    pub(crate) a: PathBuf,
+    /// Another one, of the same size
+    pub(crate) b: PathBuf,
+    /// Write a picture of Delta E 2000: black is none, white is 10 and more
+    #[arg(long, short)]
+    pub(crate) output: Option<PathBuf>,
+    /// Stops of exposure with which both are looked at
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_stops)]
+    pub(crate) exposure: f32,
+    /// Exit with code 1 if the worst Delta E is more than this
+    #[arg(long, value_name = "DELTA_E", value_parser = parse_delta)]
+    pub(crate) max: Option<f64>,
+}
+
+const DIFF_HELP: &str = "\
+linear is the difference of the radiances; a PNG picture is taken as the radiance that its colours stand for. Delta E is CIE
+Delta E 2000 of the colours as they are shown, clipped to 0 to 1: about 1 is just seen.
+
+Examples:
+  lobe render -o precise.exr && lobe render --precision fast -o fast.exr && lobe diff precise.exr fast.exr
+  lobe diff before.png after.png --max 1 -o difference.png";
+
+fn parse_delta(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(delta) if delta >= 0.0 => Ok(delta),
+        _ => Err("a number that is not negative, such as 1".to_owned()),
     }
 }
 
@@ -372,7 +500,7 @@ Examples:
 /// `lobe trade`.
 #[derive(Debug, ArgsOf)]
 pub(crate) struct TradeArgs {
-    /// A scene, .json or .obj, whose materials are measured; the whole catalogue without it
+    /// A scene, .gltf, .glb, .obj or .json, whose materials are measured; the whole catalogue without it
     pub(crate) scene: Option<PathBuf>,
     /// Only the cheapest way to each material of the scene that is seen to be off by at most this, such as 1/255
     #[arg(long, requires = "scene", allow_negative_numbers = true, value_parser = parse_budget)]

@@ -74,7 +74,7 @@ pub(crate) fn run(args: &RenderArgs, png: bool, quiet: bool, as_json: bool) -> R
             }
         }
     }
-    sheet.save(&args.output, &Display { exposure: args.exposure, depth: Depth::Eight })?;
+    sheet.save(&args.output, &Display { exposure: args.exposure, depth: Depth::Eight, tone: args.tone })?;
 
     let (path, seconds) = (args.output.display(), start.elapsed().as_secs_f64());
     if as_json {

@@ -6,10 +6,10 @@ use crate::error::Failure;
 use crate::output;
 use crate::progress::Progress;
 use crate::spec;
-use lobe_scene::image::{Depth, Display, MAX_PIXELS, check_ending};
+use lobe_scene::image::{Depth, Display, MAX_PIXELS, Tone, check_ending};
 use lobe_scene::procedural::show_material;
 use lobe_scene::{
-    Image, LoadOptions, Renderer, Scene, Settings, ShadingModel, View, check_writable, default_scene, load,
+    Image, Light, LoadOptions, Renderer, Scene, Settings, ShadingModel, View, check_writable, default_scene, load,
 };
 use serde_json::json;
 use std::io::Write as _;
@@ -27,9 +27,13 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
             args.output.display()
         )));
     }
-    let pixels = u64::from(args.width) * u64::from(args.height);
+    if !png && args.tone != Tone::None {
+        return Err(Failure::Usage(format!("--tone is for .png; {} is linear: leave it out", args.output.display())));
+    }
+    let [width, height] = args.size.unwrap_or([args.width, args.height]);
+    let pixels = u64::from(width) * u64::from(height);
     if pixels > MAX_PIXELS {
-        let size = format!("{}x{}", args.width, args.height);
+        let size = format!("{width}x{height}");
         return Err(Failure::Usage(format!(
             "a picture of {size} has {pixels} pixels; at most {MAX_PIXELS} are possible"
         )));
@@ -56,19 +60,15 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
     if let (Some(material), Some(_)) = (material, &args.scene) {
         view.materials = std::iter::once((View::ALL.to_owned(), material)).collect();
     }
-    let settings = Settings {
-        width: args.width,
-        height: args.height,
-        samples: args.samples,
-        precision: args.precision,
-        ..Settings::default()
-    };
+    view.camera = args.camera.or(view.camera);
+    relight(&mut view, &scene, args, width as f32 / height as f32);
+    let settings = Settings { width, height, samples: args.samples, precision: args.precision, ..Settings::default() };
     let start = Instant::now();
     let renderer = Renderer::new(&scene)?;
     let image = take(&renderer, &view, &settings, &view.name, quiet)?;
     let seconds = start.elapsed().as_secs_f64();
     let depth = if args.deep { Depth::Sixteen } else { Depth::Eight };
-    image.save(&args.output, &Display { exposure: view.exposure + args.exposure, depth })?;
+    image.save(&args.output, &Display { exposure: view.exposure + args.exposure, depth, tone: args.tone })?;
 
     let (path, triangles) = (args.output.display(), scene.triangle_count());
     if json {
@@ -91,6 +91,26 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
     let size = format!("{}x{}, {} samples", settings.width, settings.height, settings.samples);
     let line = format!("{path}: view `{}`, {size}, {triangles} triangles, {seconds:.2} s\n", view.name);
     output::print(line.as_bytes())
+}
+
+/// Puts the lights and the environment that were asked for in the place of those of the view.
+fn relight(view: &mut View, scene: &Scene, args: &RenderArgs, aspect: f32) {
+    if args.light.is_empty() && args.environment.is_none() {
+        return;
+    }
+    let Some((low, high)) = scene.bounds() else { return };
+    let is_ambient = |light: &Light| matches!(light, Light::Ambient(_));
+    let old = view.lights_for(&view.camera_for(low, high, aspect));
+    let (mut ambient, mut lights): (Vec<_>, Vec<_>) = old.into_iter().partition(is_ambient);
+    if !args.light.is_empty() {
+        lights.clone_from(&args.light);
+    }
+    if let Some(environment) = args.environment {
+        view.background = environment;
+        ambient = vec![Light::Ambient(environment.mean())];
+    }
+    lights.extend(ambient);
+    view.lights = Some(lights);
 }
 
 /// The scene of a file, or the built-in one.

@@ -137,6 +137,7 @@ fn of_surface(name: &str, surface: &Surface) -> Option<Material> {
         Surface::NormalizedBlinnPhong(sum) => {
             vec![lambert(sum.a.albedo())?, highlight("blinn-phong", sum.b.ks(), sum.b.shininess())?]
         }
+        Surface::Gltf(material) => material.lobes(),
         Surface::Lobes(lobes) => lobes.material().lobes.clone(),
         _ => return None,
     };

@@ -557,3 +557,49 @@ fn a_picture_that_cannot_be_written_says_so_before_the_work() {
     }
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3, "no temporary file is left");
 }
+
+#[test]
+fn pictures_are_compared() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_lobe")).args(arguments).current_dir(folder.path()).output();
+        let output = output.expect("it runs");
+        let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    for (name, extra) in
+        [("a.exr", vec![]), ("b.exr", vec!["--precision", "coarse"]), ("c.png", vec!["--size", "32x18"])]
+    {
+        let mut arguments = vec!["render", "-q", "--samples", "1", "-o", name];
+        arguments.extend(if extra.contains(&"--size") { vec![] } else { vec!["--width", "64", "--height", "36"] });
+        arguments.extend(extra);
+        let (code, _, errors) = run(&arguments);
+        assert_eq!((code, errors.as_str()), (Some(0), ""), "{name}");
+    }
+    let (code, text, _) = run(&["diff", "a.exr", "a.exr", "--max", "0"]);
+    assert!(code == Some(0) && text.contains("0 of 2304 pixels differ"), "{text}");
+    let (code, text, errors) = run(&["diff", "a.exr", "b.exr", "--max", "1", "-o", "d.png", "--json"]);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    let facts: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert!(
+        facts["delta_e_2000"]["worst"].as_f64() > Some(0.0) && facts["steps_of_8_bits"].as_u64() <= Some(2),
+        "{text}"
+    );
+    assert!(folder.path().join("d.png").exists());
+    let (code, _, errors) = run(&["diff", "a.exr", "b.exr", "--max", "0"]);
+    assert!(code == Some(1) && errors.contains("at most 0 is allowed"), "{errors}");
+    let (code, _, errors) = run(&["diff", "a.exr", "c.png"]);
+    assert!(code == Some(3) && errors.contains("give two pictures of one size"), "{errors}");
+    let (code, _, errors) = run(&["diff", "a.exr", "none.png"]);
+    assert!(code == Some(3) && errors.contains("none.png: cannot read this file"), "{errors}");
+    for (argument, value, expected) in [
+        ("--camera", "1,2:3", "EYE:TARGET"),
+        ("--light", "moon:1,2,3:4", "point:X,Y,Z:I"),
+        ("--environment", "-1", "a radiance such as"),
+        ("--tone", "filmic", "pbr-neutral"),
+        ("--size", "0x5", "such as 640x360"),
+    ] {
+        let (code, _, errors) = run(&["render", "-o", "x.png", argument, value]);
+        assert!(code == Some(2) && errors.contains(expected), "{argument}: {errors}");
+    }
+}

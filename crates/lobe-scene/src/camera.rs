@@ -18,6 +18,15 @@ pub struct Camera {
     pub up: Vec3,
     /// The angle between the upper and the lower edge of the picture, in degrees, above 0 and below 180.
     pub fov_y_degrees: f32,
+    /// An orthographic camera: the height of what it sees, in units of the scene, in place of the angle.
+    pub height: Option<f32>,
+}
+
+impl Default for Camera {
+    /// At `(0, 0, 1)`, looking at the origin with an angle of 35°.
+    fn default() -> Self {
+        Self { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 35.0, height: None }
+    }
 }
 
 impl Camera {
@@ -33,7 +42,15 @@ impl Camera {
         let half_x = (half_y.tan() * aspect.clamp(0.01, 100.0)).atan();
         let distance = radius / half_y.min(half_x).sin();
         let from = Vec3::new(0.45, 0.35, 1.0).normalize();
-        Self { eye: target + from * distance, target, up: Vec3::Y, fov_y_degrees }
+        Self { eye: target + from * distance, target, up: Vec3::Y, fov_y_degrees, height: None }
+    }
+
+    /// Whether a picture can be taken with it.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] with what is wrong: no direction, an angle that is none, a point that is too far away.
+    pub fn check(&self) -> Result<(), Error> {
+        self.rays(1, 1).map(|_| ())
     }
 
     /// The rays of a picture of this size.
@@ -58,13 +75,22 @@ impl Camera {
             return Err(Error::setting("fov_y_degrees", self.fov_y_degrees, "it lies between 0 and 180"));
         }
         let up = right.cross(forward);
-        let half_height = (f64::from(self.fov_y_degrees).to_radians() / 2.0).tan();
+        if let Some(seen) = self.height.filter(|seen| !(*seen > 0.0 && *seen <= FARTHEST)) {
+            return Err(Error::setting("the height of an orthographic camera", seen, "it lies between 0 and 1e12"));
+        }
+        let parallel = self.height.is_some();
+        let half_height = self
+            .height
+            .map_or_else(|| (f64::from(self.fov_y_degrees).to_radians() / 2.0).tan(), |seen| f64::from(seen) / 2.0);
         let half_width = half_height * f64::from(width) / f64::from(height);
+        let across = up * half_height - right * half_width;
         Ok(Rays {
             eye: self.eye,
-            corner: (forward - right * half_width + up * half_height).as_vec3(),
+            forward: forward.as_vec3(),
+            corner: if parallel { across } else { forward + across }.as_vec3(),
             right: (right * 2.0 * half_width / f64::from(width)).as_vec3(),
             down: (-up * 2.0 * half_height / f64::from(height)).as_vec3(),
+            parallel,
         })
     }
 }
@@ -72,17 +98,31 @@ impl Camera {
 /// The rays through the pixels of a picture.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rays {
-    pub(crate) eye: Vec3,
+    eye: Vec3,
+    forward: Vec3,
     corner: Vec3,
     right: Vec3,
     down: Vec3,
+    parallel: bool,
 }
 
 impl Rays {
     /// The unit direction through a point of the picture, in pixels from its upper left corner.
     #[inline]
     pub(crate) fn direction(&self, x: f32, y: f32) -> Vec3 {
-        (self.corner + self.right * x + self.down * y).normalize()
+        if self.parallel { self.forward } else { (self.corner + self.right * x + self.down * y).normalize() }
+    }
+
+    /// Where the ray through that point starts.
+    #[inline]
+    pub(crate) fn origin(&self, x: f32, y: f32) -> Vec3 {
+        if self.parallel { self.eye + self.corner + self.right * x + self.down * y } else { self.eye }
+    }
+
+    /// The width of a pixel at the start of its ray, and by how much it grows with each unit of length.
+    pub(crate) fn pixel(&self) -> (f32, f32) {
+        let side = self.down.length();
+        if self.parallel { (side, 0.0) } else { (0.0, side) }
     }
 }
 
@@ -92,7 +132,8 @@ mod tests {
 
     #[test]
     fn the_target_is_in_the_middle_and_the_edges_are_at_half_the_angle() -> Result<(), Error> {
-        let camera = Camera { eye: Vec3::ZERO, target: Vec3::NEG_Z * 3.0, up: Vec3::Y, fov_y_degrees: 90.0 };
+        let camera =
+            Camera { eye: Vec3::ZERO, target: Vec3::NEG_Z * 3.0, up: Vec3::Y, fov_y_degrees: 90.0, height: None };
         let rays = camera.rays(200, 100)?;
         assert!((rays.direction(100.0, 50.0) - Vec3::NEG_Z).length() < 1e-6);
         assert!((rays.direction(100.0, 0.0) - Vec3::new(0.0, 1.0, -1.0).normalize()).length() < 1e-6);
@@ -129,7 +170,7 @@ mod tests {
 
     #[test]
     fn senseless_cameras_are_errors() {
-        let good = Camera { eye: Vec3::ZERO, target: Vec3::X, up: Vec3::Y, fov_y_degrees: 40.0 };
+        let good = Camera { eye: Vec3::ZERO, target: Vec3::X, up: Vec3::Y, fov_y_degrees: 40.0, height: None };
         for bad in [
             Camera { target: Vec3::ZERO, ..good },
             Camera { target: Vec3::splat(f32::NAN), ..good },

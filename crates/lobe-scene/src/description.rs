@@ -1,8 +1,9 @@
-//! A scene from a file: an OBJ model alone, or a small JSON description that names one.
+//! A scene from a file: a model alone, glTF or OBJ, or a small JSON description that names one.
 
 use crate::camera::Camera;
 use crate::error::Error;
 use crate::files;
+use crate::gltf;
 use crate::material::ShadingModel;
 use crate::mtl;
 use crate::obj;
@@ -26,7 +27,7 @@ pub struct LoadOptions {
     pub crease_degrees: Option<f32>,
 }
 
-/// Reads a scene: an `.obj` file, seen in the default view, or a `.json` description.
+/// Reads a scene: a `.gltf` or `.glb` file, an `.obj` file, seen in the default view, or a `.json` description.
 ///
 /// # Errors
 /// Any error of reading; [`Error::UnknownFormat`] for another ending.
@@ -34,7 +35,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, Error> {
     let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
     let file = path.display().to_string();
     if path.is_dir() {
-        return Err(Error::read(path, io::Error::other("it is a folder; name an .obj or .json file")));
+        return Err(Error::read(path, io::Error::other("it is a folder; name a .gltf, .glb, .obj or .json file")));
     }
     match ending.as_deref() {
         Some("obj") => {
@@ -52,7 +53,8 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, Error> {
                 |name: &str| files::read(&folder.join(name), std::mem::replace(&mut limit, mtl::MAX_BYTES));
             parse(&text, &file, &mut loader, options)
         }
-        _ => Err(Error::UnknownFormat { path: path.to_owned(), expected: "scenes end in .obj or .json" }),
+        Some("gltf" | "glb") => gltf::load(path),
+        _ => Err(Error::UnknownFormat { path: path.to_owned(), expected: "scenes end in .gltf, .glb, .obj or .json" }),
     }
 }
 
@@ -78,7 +80,8 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, Error> {
 /// }
 /// ```
 ///
-/// Only `obj` is required; its path is relative to the JSON file. `materials` replaces those of the model by lobes of
+/// Only the model is required, `obj` or `gltf`; its path is relative to the JSON file. The cameras and lights of a glTF
+/// file are taken where the description has none. `materials` replaces those of the model by lobes of
 /// [`lobe_models`], or by a preset; `*` is all that are not named. `background` may be one colour. What a view does not
 /// say is taken from the description itself; without `views` there is one, named `default`. A misspelt word is an
 /// error, not ignored. Colours are linear; intensity is in W·sr⁻¹, irradiance in W·m⁻².
@@ -135,16 +138,36 @@ pub fn parse(
             "another view has it already; give each its own",
         ));
     }
-    let obj_path = Path::new(&description.obj);
-    let shown = Path::new(file).with_file_name(obj_path);
-    let content = loader(&description.obj).map_err(|source| Error::read(&shown, source))?;
-    let folder = obj_path.parent().unwrap_or(Path::new("")).to_owned();
+    let (model, is_gltf) = match (&description.obj, &description.gltf) {
+        (Some(model), None) => (model, false),
+        (None, Some(model)) => (model, true),
+        (both, _) => {
+            let problem = if both.is_some() { "both `obj` and `gltf`" } else { "neither `obj` nor `gltf`" };
+            let problem = format!("{problem}; a description names one model, such as {{\"obj\": \"model.obj\"}}");
+            return Err(Error::Json { file: file.to_owned(), line: 1, column: 1, problem });
+        }
+    };
+    let path = Path::new(model);
+    let shown = Path::new(file).with_file_name(path);
+    let content = loader(model).map_err(|source| Error::read(&shown, source))?;
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let mut beside = |name: &str| loader(&folder.join(name).to_string_lossy());
-    let obj_options = obj_options(options, description.crease_degrees.map(|Crease(degrees)| degrees));
-    let model = obj::parse(content, &shown.display().to_string(), &mut beside, &obj_options)?;
-    let shading = options.shading_model.or(description.shading_model).unwrap_or_default();
-    let mut scene = Scene::from_model(model, shading);
-    scene.views = description.views();
+    let scene = if is_gltf {
+        let mut scene = gltf::parse(&content, &shown.display().to_string(), &mut beside)?;
+        let described = description.views(scene.views.first());
+        // Its own cameras stay, after what the description says.
+        let names: HashSet<String> = described.iter().map(|view| view.name.clone()).collect();
+        let own = std::mem::replace(&mut scene.views, described);
+        scene.views.extend(own.into_iter().filter(|view| view.camera.is_some() && !names.contains(&view.name)));
+        scene
+    } else {
+        let obj_options = obj_options(options, description.crease_degrees.map(|Crease(degrees)| degrees));
+        let model = obj::parse(content, &shown.display().to_string(), &mut beside, &obj_options)?;
+        let shading = options.shading_model.or(description.shading_model).unwrap_or_default();
+        let mut scene = Scene::from_model(model, shading);
+        scene.views = description.views(None);
+        scene
+    };
     for name in scene.views.iter().flat_map(|view| view.materials.keys()) {
         if name != View::ALL && scene.materials.iter().all(|material| material.name != *name) {
             let known: Vec<_> = scene.materials.iter().map(|material| material.name.as_str()).collect();
@@ -164,7 +187,8 @@ fn obj_options(options: &LoadOptions, described: Option<f32>) -> obj::Options {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Description {
-    obj: String,
+    obj: Option<String>,
+    gltf: Option<String>,
     shading_model: Option<ShadingModel>,
     crease_degrees: Option<Crease>,
     camera: Option<CameraText>,
@@ -189,11 +213,12 @@ struct ViewText {
 }
 
 impl Description {
-    fn views(self) -> Vec<View> {
+    /// The views; what they do not say about camera and lights is that of `model`.
+    fn views(self, model: Option<&View>) -> Vec<View> {
         let general = View {
             name: "default".to_owned(),
-            camera: self.camera.map(|CameraText(camera)| camera),
-            lights: self.lights.map(lights),
+            camera: self.camera.map(|CameraText(camera)| camera).or(model.and_then(|view| view.camera)),
+            lights: self.lights.map(lights).or_else(|| model.and_then(|view| view.lights.clone())),
             background: self.background.map_or(View::default().background, Background::from),
             exposure: self.exposure.map_or(0.0, |Exposure(stops)| stops),
             materials: self.materials,
@@ -296,8 +321,13 @@ struct CameraText(Camera);
 impl TryFrom<CameraParts> for CameraText {
     type Error = String;
     fn try_from(parts: CameraParts) -> Result<Self, Self::Error> {
-        let camera =
-            Camera { eye: parts.eye.0, target: parts.target.0, up: parts.up.0, fov_y_degrees: parts.fov_y_degrees };
+        let camera = Camera {
+            eye: parts.eye.0,
+            target: parts.target.0,
+            up: parts.up.0,
+            fov_y_degrees: parts.fov_y_degrees,
+            height: None,
+        };
         camera.rays(1, 1).map(|_| Self(camera)).map_err(|error| error.to_string())
     }
 }
@@ -446,7 +476,7 @@ mod tests {
     #[test]
     fn each_error_names_its_place() {
         let cases = [
-            ("{\n}", "dir/s.json:2:1: missing field `obj`"),
+            ("{\n}", "dir/s.json:1:1: neither `obj` nor `gltf`; a description names one model"),
             ("{\"obj\": 3}", "dir/s.json:1:9: invalid type: integer `3`, expected a string"),
             ("{\"obj\": \"x\", \"light\": []}", "dir/s.json:1:20: unknown field `light`, expected one of `obj`"),
             ("{\"obj\": \"x\",\n\"lights\": [{\"spot\": {}}]}", "dir/s.json:2:18: unknown variant `spot`"),

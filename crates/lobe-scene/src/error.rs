@@ -51,6 +51,14 @@ pub enum Error {
         /// What is wrong, and where it can be said, what would be right.
         problem: String,
     },
+    /// A glTF file is wrong.
+    #[error("{file}: {problem}")]
+    Content {
+        /// The file as the caller named it.
+        file: String,
+        /// What is wrong, and where it can be said, what would be right.
+        problem: String,
+    },
     /// A file holds no triangle that could be drawn.
     #[error("{file}: no triangle with an area; an OBJ file needs `v` lines and `f` lines of three corners or more")]
     NoTriangles {
@@ -149,6 +157,11 @@ impl Warnings {
         } else {
             self.more += 1;
         }
+    }
+
+    /// Whether this was said.
+    pub(crate) fn contains(&self, text: &str) -> bool {
+        self.list.iter().any(|warning| warning.text == text)
     }
 
     /// Adds the warnings of another file.

@@ -2,7 +2,7 @@
 //!
 //! | ending | content |
 //! |---|---|
-//! | `.png` | 8 or 16 bits a channel: exposure, then the curve of sRGB, then rounding. Values outside 0 … 1 are clipped. |
+//! | `.png` | 8 or 16 bits a channel: exposure, a [`Tone`] if asked for, then the curve of sRGB, then rounding. Values outside 0 … 1 are clipped. |
 //! | `.exr` | OpenEXR, 32-bit float, linear: the radiance itself, without exposure |
 //! | `.pfm` | Portable float map, the same numbers |
 //!
@@ -38,6 +38,83 @@ pub struct Display {
     pub exposure: f32,
     /// Bits a channel.
     pub depth: Depth,
+    /// How what is brighter than white is brought into the range. Not at all by default.
+    pub tone: Tone,
+}
+
+/// How a linear colour is brought into 0 … 1, after the exposure and before the curve of sRGB.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Tone {
+    /// It is clipped.
+    #[default]
+    None,
+    /// `x/(1 + x)` of each channel (Reinhard, Stark, Shirley and Ferwerda, *Photographic tone reproduction for digital
+    /// images*, 2002, equation 3, there of the luminance).
+    Reinhard,
+    /// `x (2.51 x + 0.03)/(x (2.43 x + 0.59) + 0.14)` of each channel: Narkowicz's fit to the curve of ACES (*ACES filmic
+    /// tone mapping curve*, 2016). It is a curve alone, without the colour spaces of ACES.
+    Aces,
+    /// Khronos' PBR Neutral (*PBR neutral tone mapper specification*, 2024): colours below 0.8 as they are but for the 4 %
+    /// that a dielectric reflects, brighter ones compressed and made paler.
+    PbrNeutral,
+}
+
+impl Tone {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::None, Self::Reinhard, Self::Aces, Self::PbrNeutral];
+
+    /// Its name: `none`, `reinhard`, `aces-fit` or `pbr-neutral`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Reinhard => "reinhard",
+            Self::Aces => "aces-fit",
+            Self::PbrNeutral => "pbr-neutral",
+        }
+    }
+
+    /// The colour on a screen, still linear; for colours that are not negative.
+    #[must_use]
+    pub fn apply(self, colour: [f32; 3]) -> [f32; 3] {
+        match self {
+            Self::None => colour,
+            // Through the reciprocal, so that an infinite radiance is white and not NaN.
+            Self::Reinhard => colour.map(|x| 1.0 / (1.0 + 1.0 / x.max(0.0))),
+            Self::Aces => colour.map(|x| {
+                // Beyond, the quotient is 2.51/2.43, which is clipped; and squares would overflow.
+                let x = x.min(1e6);
+                (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)
+            }),
+            Self::PbrNeutral => pbr_neutral(colour),
+        }
+    }
+}
+
+impl std::fmt::Display for Tone {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The specification's equations, with its names.
+fn pbr_neutral(colour: [f32; 3]) -> [f32; 3] {
+    const F90: f32 = 0.04;
+    const START: f32 = 0.8 - F90;
+    const DESATURATION: f32 = 0.15;
+    let colour = colour.map(|x| x.min(1e30));
+    let [r, g, b] = colour;
+    let x = r.min(g).min(b);
+    let offset = if x <= 2.0 * F90 { x - x * x / (4.0 * F90) } else { F90 };
+    let colour = colour.map(|c| c - offset);
+    let peak = colour[0].max(colour[1]).max(colour[2]);
+    if peak <= START {
+        return colour;
+    }
+    let room = 1.0 - START;
+    let compressed = 1.0 - room * room / (peak + room - START);
+    let white = 1.0 - 1.0 / (DESATURATION * (peak - compressed) + 1.0);
+    colour.map(|c| c * (compressed / peak) * (1.0 - white) + compressed * white)
 }
 
 /// The kind of a file, by its ending.
@@ -117,6 +194,22 @@ impl Image {
         crate::write_atomically(path, &bytes)
     }
 
+    /// Reads a picture: `.png` by the curve of sRGB, and without its opacity, `.exr` and `.pfm` as they stand.
+    ///
+    /// # Errors
+    /// [`Error::UnknownFormat`] for another ending, [`Error::Read`] when the file cannot be read, [`Error::Content`] when it
+    /// is not what its ending says, or larger than [`MAX_PIXELS`].
+    pub fn load(path: &Path) -> Result<Self, Error> {
+        let format = format_of(path)?;
+        let bytes = crate::files::read(path, 1 << 32).map_err(|source| Error::read(path, source))?;
+        let read = match format {
+            Format::Png => from_png(&bytes),
+            Format::Exr => from_exr(&bytes),
+            Format::Pfm => from_pfm(&bytes),
+        };
+        read.map_err(|problem| Error::Content { file: path.display().to_string(), problem })
+    }
+
     /// The picture as the bytes of a PNG file with 8 bits a channel: what a web page would show.
     ///
     /// # Errors
@@ -127,7 +220,7 @@ impl Image {
 
     fn png(&self, display: &Display) -> Result<Vec<u8>, png::EncodingError> {
         let gain = display.exposure.exp2();
-        let channels = self.pixels.iter().flat_map(|&pixel| display_colour(pixel, gain));
+        let channels = self.pixels.iter().flat_map(|&pixel| display_colour(pixel, gain, display.tone));
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);
@@ -175,14 +268,92 @@ impl Image {
     }
 }
 
+fn sized(width: usize, height: usize) -> Result<Image, String> {
+    let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
+    Image::new(side(width), side(height)).map_err(|error| error.to_string())
+}
+
+fn from_png(bytes: &[u8]) -> Result<Image, String> {
+    let wrong = |error: png::DecodingError| format!("this is not a whole PNG picture: {error}");
+    let mut decoder = png::Decoder::new_with_limits(io::Cursor::new(bytes), png::Limits { bytes: 1 << 32 });
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().map_err(wrong)?;
+    let mut image = sized(reader.info().width as usize, reader.info().height as usize)?;
+    let size = reader.output_buffer_size().ok_or("this picture is larger than the machine's memory")?;
+    let mut data = vec![0; size];
+    let frame = reader.next_frame(&mut data).map_err(wrong)?;
+    let wide = frame.bit_depth == png::BitDepth::Sixteen;
+    let channels = frame.color_type.samples();
+    let step = channels * if wide { 2 } else { 1 };
+    for (pixel, texel) in image.pixels.iter_mut().zip(data.chunks_exact(step)) {
+        let channel = |i: usize| match texel.get(2 * i..2 * i + 2) {
+            Some(&[high, low]) if wide => f32::from(u16::from_be_bytes([high, low])) / 65535.0,
+            _ => texel.get(i).map_or(0.0, |code| f32::from(*code) / 255.0),
+        };
+        *pixel = if channels < 3 { [channel(0); 3] } else { [channel(0), channel(1), channel(2)] }.map(linear);
+    }
+    Ok(image)
+}
+
+fn from_exr(bytes: &[u8]) -> Result<Image, String> {
+    use exr::prelude::{ReadChannels as _, ReadLayers as _, read};
+    let reader = read().no_deep_data().largest_resolution_level().rgb_channels(
+        |size: exr::prelude::Vec2<usize>, _| sized(size.width(), size.height()),
+        |image: &mut Result<Image, String>, at: exr::prelude::Vec2<usize>, (r, g, b): (f32, f32, f32)| {
+            if let Ok(image) = image {
+                let index = at.y() * image.width as usize + at.x();
+                if let Some(pixel) = image.pixels.get_mut(index) {
+                    *pixel = [r, g, b];
+                }
+            }
+        },
+    );
+    let read = reader.first_valid_layer().all_attributes().non_parallel().from_buffered(io::Cursor::new(bytes));
+    read.map_err(|error| format!("this is not a whole OpenEXR picture: {error}"))?.layer_data.channel_data.pixels
+}
+
+fn from_pfm(bytes: &[u8]) -> Result<Image, String> {
+    let wrong = || "this is not a whole PFM picture of three channels".to_owned();
+    let mut rest = bytes;
+    let mut words = Vec::new();
+    while words.len() < 4 {
+        let end = rest.iter().position(u8::is_ascii_whitespace).ok_or_else(wrong)?;
+        let (word, after) = rest.split_at(end);
+        words.push(std::str::from_utf8(word).map_err(|_| wrong())?);
+        rest = after.get(1..).unwrap_or(&[]);
+    }
+    let (&["PF", width, height, scale], false) = (words.as_slice(), words.iter().any(|word| word.is_empty())) else {
+        return Err(wrong());
+    };
+    let (width, height) = (width.parse().map_err(|_| wrong())?, height.parse().map_err(|_| wrong())?);
+    let little = scale.parse::<f32>().map_err(|_| wrong())? < 0.0;
+    let mut image = sized(width, height)?;
+    if rest.len() < image.pixels.len() * 12 {
+        return Err(wrong());
+    }
+    // From the bottom to the top.
+    for (row, data) in image.pixels.chunks_exact_mut(width).rev().zip(rest.chunks_exact(12 * width)) {
+        for (channel, bytes) in row.as_flattened_mut().iter_mut().zip(data.chunks_exact(4)) {
+            let bytes = bytes.try_into().unwrap_or([0; 4]);
+            *channel = if little { f32::from_le_bytes(bytes) } else { f32::from_be_bytes(bytes) };
+        }
+    }
+    Ok(image)
+}
+
+/// The inverse of [`srgb`].
+fn linear(code: f32) -> f32 {
+    if code <= 0.04045 { code / 12.92 } else { ((code + 0.055) / 1.055).powf(2.4) }
+}
+
 /// Exposure and the sRGB curve, clipped to 0 … 1. A pixel that is not a number becomes magenta, so that nobody
 /// takes it for a colour of the scene.
-fn display_colour(pixel: [f32; 3], gain: f32) -> [f32; 3] {
+fn display_colour(pixel: [f32; 3], gain: f32, tone: Tone) -> [f32; 3] {
     let colour = Vec3::from_array(pixel) * gain;
     if colour.is_nan() {
         return [1.0, 0.0, 1.0];
     }
-    colour.to_array().map(srgb)
+    tone.apply(colour.to_array()).map(srgb)
 }
 
 /// The curve of IEC 61966-2-1: what a screen is given so that it sends out `linear`. Clipped to 0 … 1.
@@ -214,6 +385,56 @@ fn format_of(path: &Path) -> Result<Format, Error> {
 mod tests {
     use super::*;
 
+    #[test]
+    fn what_is_written_is_read_again() -> Result<(), Error> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut image = Image::new(7, 5)?;
+        for (at, pixel) in image.pixels_mut().iter_mut().enumerate() {
+            *pixel = [at as f32 / 40.0, 0.5, 1.0 - at as f32 / 40.0];
+        }
+        for (name, depth, tolerance) in [
+            ("a.exr", Depth::Eight, 0.0),
+            ("a.pfm", Depth::Eight, 0.0),
+            ("a.png", Depth::Eight, 5e-3),
+            ("b.png", Depth::Sixteen, 2e-5),
+        ] {
+            let path = folder.path().join(name);
+            image.save(&path, &Display { depth, ..Display::default() })?;
+            let read = Image::load(&path)?;
+            assert_eq!((read.width(), read.height()), (7, 5));
+            for (a, b) in image.pixels().iter().flatten().zip(read.pixels().iter().flatten()) {
+                assert!((a - b).abs() <= tolerance, "{name}: {a} {b}");
+            }
+            let bytes = std::fs::read(&path).expect("a file");
+            std::fs::write(&path, &bytes[..bytes.len() / 2]).expect("a file");
+            let error = Image::load(&path).expect_err("it is cut off").to_string();
+            assert!(error.contains(name), "{error}");
+        }
+        Ok(())
+    }
+
+    /// Black stays black, nothing becomes negative or NaN, and more light is not less.
+    #[test]
+    fn tones_keep_order_and_range() {
+        for tone in Tone::ALL {
+            let mut last = 0.0;
+            for step in 0..400 {
+                let x = if step == 0 { 0.0 } else { 1e-6 * 1.1_f32.powi(step) };
+                let [r, g, b] = tone.apply([x; 3]);
+                assert!(r == g && g == b && r >= last && r.is_finite(), "{tone} {x}: {r}");
+                assert!(tone == Tone::None || r <= 1.034, "{tone} {x}: {r}");
+                last = r;
+            }
+            assert_eq!(tone.apply([0.0; 3]), [0.0; 3]);
+            assert!(tone.apply([f32::INFINITY; 3]).iter().all(|x| *x >= 1.0), "{tone}");
+        }
+        // The points of the specification's curve: grey loses 0.04, and 0.8 is where compression begins.
+        let [r, ..] = Tone::PbrNeutral.apply([0.5; 3]);
+        assert!((r - 0.46).abs() < 1e-6);
+        let [r, ..] = Tone::PbrNeutral.apply([0.8; 3]);
+        assert!((r - 0.76).abs() < 1e-6);
+    }
+
     type Outcome = Result<(), Box<dyn std::error::Error>>;
 
     fn test_image() -> Result<Image, Error> {
@@ -233,7 +454,7 @@ mod tests {
     fn png_holds_srgb() -> Outcome {
         let image = test_image()?;
         for (depth, exposure) in [(Depth::Eight, 0.0), (Depth::Sixteen, 0.0), (Depth::Eight, 1.0)] {
-            let bytes = image.to_png(&Display { exposure, depth })?;
+            let bytes = image.to_png(&Display { exposure, depth, tone: Tone::None })?;
             let mut reader = png::Decoder::new(io::Cursor::new(bytes)).read_info()?;
             let mut data = vec![0; reader.output_buffer_size().ok_or("size")?];
             reader.next_frame(&mut data)?;

@@ -1,4 +1,4 @@
-//! Wavefront OBJ and MTL in, lobes out, and a small ray caster that shades them.
+//! glTF, Wavefront OBJ and MTL in, lobes out, and a small ray caster that shades them.
 //!
 //! ```
 //! use lobe_scene::image::Display;
@@ -18,9 +18,10 @@
 //!
 //! | where | what |
 //! |---|---|
-//! | [`load`], [`default_scene`] | a [`Scene`] from an `.obj` or `.json` file, or the one that is built in |
+//! | [`load`], [`default_scene`] | a [`Scene`] from a `.gltf`, `.glb`, `.obj` or `.json` file, or the one that is built in |
 //! | [`parse_description`] | the JSON: model, cameras, lights, views |
 //! | [`obj`], [`mtl`] | the readers, on text in memory; what they accept and what they say |
+//! | [`gltf`], [`GltfMaterial`], [`texture`] | glTF 2.0: the reader, its material point by point, filtered textures |
 //! | [`Smoothing`] | normals where a file has none |
 //! | [`Material`] | how a material becomes lobes, and in which units |
 //! | [`Renderer`] | the picture: shadows, mirrors, two sides, smooth outlines |
@@ -36,7 +37,7 @@
 //!
 //! # Limits
 //!
-//! No texture maps, no refraction, no light that bounces between diffuse surfaces. Coordinates up to
+//! No texture maps in OBJ, no refraction, no light that bounces between diffuse surfaces. Coordinates up to
 //! [`MAX_COORDINATE`]. Nothing that a file holds makes a function panic, and nothing is allocated from a number that
 //! a file merely states.
 
@@ -49,6 +50,8 @@ mod camera;
 mod description;
 mod error;
 mod files;
+pub mod gltf;
+mod gltf_material;
 pub mod image;
 mod lines;
 mod material;
@@ -56,9 +59,11 @@ mod mesh;
 pub mod mtl;
 mod normals;
 pub mod obj;
+mod picture;
 pub mod procedural;
 mod render;
 mod scene;
+pub mod texture;
 mod triangulate;
 
 pub use builtin::default_scene;
@@ -66,9 +71,10 @@ pub use camera::Camera;
 pub use description::{LoadOptions, load, parse as parse_description};
 pub use error::{Error, Warning};
 pub use files::{check_writable, write_all_atomically, write_atomically};
+pub use gltf_material::{Factors, GltfMaterial, Maps};
 pub use image::Image;
 pub use material::{AnyBrdf, LobeRecord, Material, NamedLobes, ShadingModel, Surface};
-pub use mesh::{MAX_COORDINATE, Mesh, Triangle};
+pub use mesh::{MAX_COORDINATE, Mesh, Triangle, Vertex};
 pub use normals::Smoothing;
 pub use render::{Progress, Renderer, Settings};
-pub use scene::{Background, Light, Scene, View};
+pub use scene::{Background, Cone, Light, Scene, View};

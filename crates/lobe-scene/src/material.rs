@@ -1,5 +1,6 @@
 //! A material: the lecture's equation as lobes.
 
+use crate::gltf_material::GltfMaterial;
 use crate::mtl::{Illumination, MtlMaterial};
 use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
 use lobe::{BlinnPhong, Brdf, Lambert, Mirror, Phong, Rgb, Shininess, Sum};
@@ -81,6 +82,8 @@ pub enum Surface {
     NormalizedBlinnPhong(Sum<Lambert, BlinnPhong>),
     /// Lobes of the catalogue, by name.
     Lobes(Arc<NamedLobes>),
+    /// A material of glTF 2.0, whose numbers may differ from point to point.
+    Gltf(Arc<GltfMaterial>),
     /// Any other BRDF, given from Rust.
     Other(Arc<dyn AnyBrdf>),
 }
@@ -207,6 +210,26 @@ impl Material {
         let channel = |x: f64| if x.is_finite() { x.clamp(0.0, 1.0) as f32 } else { 0.0 };
         let surface = Surface::Lobes(Arc::new(NamedLobes::new(lobes.clone())));
         Self { ambient: albedo.map(channel), ..Self::new(name, surface) }
+    }
+
+    /// A material of glTF 2.0. Emission and ambient light are its own affair, point by point.
+    #[must_use]
+    pub fn from_gltf(name: impl Into<String>, material: GltfMaterial) -> Self {
+        Self::new(name, Surface::Gltf(Arc::new(material)))
+    }
+
+    /// The material of glTF 2.0 that it is, if so.
+    #[must_use]
+    pub fn gltf(&self) -> Option<&GltfMaterial> {
+        match &self.surface {
+            Surface::Gltf(material) => Some(material),
+            _ => None,
+        }
+    }
+
+    /// Whether light gets through it somewhere.
+    pub(crate) fn is_open(&self) -> bool {
+        self.dissolve < 1.0 || self.gltf().is_some_and(GltfMaterial::is_open)
     }
 
     /// The material of a file as lobes. What is not there by `illum` is left out.
@@ -339,6 +362,7 @@ impl Surface {
                 highlight(*a, LobeRecord::new("blinn-phong", b.ks(), Some(b.shininess()), b.map(f64::from)))
             }
             Self::Lobes(lobes) => lobes.material.lobes.iter().map(LobeRecord::named).collect(),
+            Self::Gltf(material) => material.lobes().iter().map(LobeRecord::named).collect(),
             Self::Other(_) => {
                 let parameters = String::new();
                 vec![LobeRecord { model: "other", parameters, reflectance: None, exponent: None, reference: None }]

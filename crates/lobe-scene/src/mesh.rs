@@ -1,7 +1,7 @@
 //! Triangles with normals and materials.
 
 use crate::Error;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3, Vec4};
 use std::collections::HashSet;
 
 /// The largest coordinate that a mesh may have, in units of the scene.
@@ -16,8 +16,27 @@ pub struct Triangle {
     pub positions: [u32; 3],
     /// The normals of its corners in [`Mesh::normals`].
     pub normals: [u32; 3],
+    /// What textures need of its corners, in [`Mesh::vertices`], where the mesh has any.
+    pub vertices: [u32; 3],
     /// Its material in [`Scene::materials`](crate::Scene::materials).
     pub material: u32,
+}
+
+/// What a textured material needs at a corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vertex {
+    /// Two sets of texture coordinates, from the upper left corner of a texture.
+    pub uv: [Vec2; 2],
+    /// The unit tangent in world space, and ±1: on which side of it the bitangent lies. All 0 where there is none.
+    pub tangent: Vec4,
+    /// What the base colour is multiplied with, linear.
+    pub color: [f32; 4],
+}
+
+impl Default for Vertex {
+    fn default() -> Self {
+        Self { uv: [Vec2::ZERO; 2], tangent: Vec4::ZERO, color: [1.0; 4] }
+    }
 }
 
 /// A surface of triangles.
@@ -27,6 +46,8 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// Unit normals in world space.
     pub normals: Vec<Vec3>,
+    /// Texture coordinates, tangents and colours; empty for a mesh without.
+    pub vertices: Vec<Vertex>,
     /// The triangles.
     pub triangles: Vec<Triangle>,
 }
@@ -50,9 +71,9 @@ impl Mesh {
     ) -> Result<Self, Error> {
         let triangles = faces
             .iter()
-            .map(|&positions| Triangle { positions, normals: [crate::normals::MISSING; 3], material })
+            .map(|&positions| Triangle { positions, normals: [crate::normals::MISSING; 3], vertices: [0; 3], material })
             .collect();
-        let mut mesh = Self { positions, normals: Vec::new(), triangles };
+        let mut mesh = Self { positions, triangles, ..Self::default() };
         mesh.check_positions()?;
         mesh.drop_degenerate();
         crate::normals::fill(&mut mesh, &[], smoothing);
@@ -141,6 +162,14 @@ impl Mesh {
                     format!("a normal of triangle {at}"),
                     wrong,
                     format!("the mesh has {} normals, counted from 0", self.normals.len()),
+                ));
+            }
+            let count = self.vertices.len();
+            if let Some(&wrong) = triangle.vertices.iter().find(|&&vertex| count > 0 && vertex as usize >= count) {
+                return Err(Error::setting(
+                    format!("a vertex of triangle {at}"),
+                    wrong,
+                    format!("the mesh has {count} vertices, counted from 0"),
                 ));
             }
             if triangle.material as usize >= materials {

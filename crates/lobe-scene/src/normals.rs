@@ -229,8 +229,10 @@ mod tests {
             Vec3::new(c, 1.0, s),
         ];
         let faces = [[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 2]];
-        let triangles = faces.map(|positions| Triangle { positions, normals: [MISSING; 3], material: 0 }).to_vec();
-        Mesh { positions, normals: Vec::new(), triangles }
+        let triangles = faces
+            .map(|positions| Triangle { positions, normals: [MISSING; 3], vertices: [0; 3], material: 0 })
+            .to_vec();
+        Mesh { positions, triangles, ..Mesh::default() }
     }
 
     fn normal(mesh: &Mesh, triangle: usize, corner: usize) -> Vec3 {

@@ -332,6 +332,7 @@ impl<'a> Reader<'a> {
             self.mesh.triangles.push(Triangle {
                 positions: [a.position, b.position, c.position],
                 normals: [a.normal, b.normal, c.normal],
+                vertices: [0; 3],
                 material: self.material,
             });
             self.groups.push(self.group);

@@ -76,6 +76,7 @@ pub fn sphere_field(triangles: u32) -> Result<Scene, Error> {
             target: Vec3::new(0.0, 0.0, 0.5),
             up: Vec3::Y,
             fov_y_degrees: 42.0,
+            height: None,
         }),
         lights: Some(vec![
             Light::Point { position: Vec3::new(-5.0, 8.0, 6.0), intensity: Rgb::splat(300.0), radius: 0.0 },
@@ -146,6 +147,7 @@ pub fn show_material(material: &lobe_models::Material) -> Result<Scene, Error> {
             target: Vec3::new(0.0, 0.95, 0.0),
             up: Vec3::Y,
             fov_y_degrees: 24.0,
+            height: None,
         }),
         lights: Some(show_lights()),
         background: crate::Background::Gradient { bottom: Rgb::splat(0.25), top: Rgb::new(0.4, 0.43, 0.48) },
@@ -183,7 +185,13 @@ pub fn swatch(material: &lobe_models::Material) -> Result<Scene, Error> {
     };
     let view = View {
         name: "swatch".to_owned(),
-        camera: Some(Camera { eye: Vec3::new(0.0, 0.0, 6.0), target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 21.0 }),
+        camera: Some(Camera {
+            eye: Vec3::new(0.0, 0.0, 6.0),
+            target: Vec3::ZERO,
+            up: Vec3::Y,
+            fov_y_degrees: 21.0,
+            height: None,
+        }),
         lights: Some(vec![lamp([-0.5, 0.7, 0.75], 2.6), lamp([0.9, 0.15, 0.1], 1.0), Light::Ambient(Rgb::splat(0.12))]),
         background: crate::Background::Solid(Rgb::splat(0.03)),
         ..View::default()

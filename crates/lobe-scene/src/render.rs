@@ -8,11 +8,12 @@ use crate::batch::LitPoints;
 use crate::bvh::{Bvh, Hit};
 use crate::camera::FARTHEST;
 use crate::error::Error;
+use crate::gltf_material::{GltfMaterial, below_coat};
 use crate::image::Image;
 use crate::material::{Material, Surface};
-use crate::mesh::area_vector;
-use crate::scene::{Background, Light, Scene, View};
-use glam::Vec3;
+use crate::mesh::{Vertex, area_vector};
+use crate::scene::{Background, Cone, Light, Scene, View};
+use glam::{Vec2, Vec3};
 use lobe::{AmbientLight, DirectionalLight, Frame, Incident, PointLight, Rgb, interpolate_normal};
 use lobe_models::AnyPrecision;
 use rayon::prelude::*;
@@ -95,6 +96,8 @@ struct ShadingTriangle {
     /// Of the plane, unit length, counter-clockwise side.
     face: Vec3,
     material: u32,
+    /// Which mesh of the scene it is in, and which triangle there.
+    place: [u32; 2],
 }
 
 impl<'a> Renderer<'a> {
@@ -115,14 +118,16 @@ impl<'a> Renderer<'a> {
         let triangles: Vec<ShadingTriangle> = scene
             .meshes
             .iter()
-            .flat_map(|mesh| {
-                mesh.triangles.iter().map(|triangle| {
+            .zip(0_u32..)
+            .flat_map(|(mesh, at)| {
+                mesh.triangles.iter().zip(0_u32..).map(move |(triangle, within)| {
                     let corners = mesh.corners(triangle);
                     ShadingTriangle {
                         corners,
                         normals: triangle.normals.map(|normal| mesh.normals[normal as usize]),
                         face: area_vector(corners).normalize_or_zero().as_vec3(),
                         material: triangle.material,
+                        place: [at, within],
                     }
                 })
             })
@@ -131,7 +136,7 @@ impl<'a> Renderer<'a> {
             .bounds()
             .ok_or_else(|| Error::setting("the number of triangles", 0, "a scene has at least one triangle"))?;
         let corners: Vec<[Vec3; 3]> = triangles.iter().map(|triangle| triangle.corners).collect();
-        let dissolved = scene.materials.iter().any(|material| material.dissolve < 1.0);
+        let dissolved = scene.materials.iter().any(Material::is_open);
         Ok(Self { scene, bvh: Bvh::new(&corners), triangles, bounds, dissolved })
     }
 
@@ -149,8 +154,17 @@ impl<'a> Renderer<'a> {
         let rays = camera.rays(settings.width, settings.height)?;
         let lights = Lights::new(&view.lights_for(&camera))?;
         let materials = view.materials_of(&self.scene.materials);
-        let pass =
-            Pass { renderer: self, materials, lights, background: view.background, precision: settings.precision };
+        let (width_at_start, mut spread) = rays.pixel();
+        // A pixel of many samples is seen as sharp as its samples are dense.
+        spread /= (settings.samples as f32).sqrt();
+        let pass = Pass {
+            renderer: self,
+            materials,
+            lights,
+            background: view.background,
+            precision: settings.precision,
+            spread,
+        };
         let samples = sample_points(settings.samples);
         let weight = 1.0 / settings.samples as f32;
         let rows_done = AtomicU64::new(0);
@@ -161,11 +175,14 @@ impl<'a> Renderer<'a> {
             |row, (y, pixels)| {
                 for x in 0..width {
                     for (sample, [dx, dy]) in samples.iter().enumerate() {
+                        let (px, py) = (x as f32 + dx, y as f32 + dy);
                         let ray = Ray {
-                            origin: rays.eye,
-                            direction: rays.direction(x as f32 + dx, y as f32 + dy),
+                            origin: rays.origin(px, py),
+                            direction: rays.direction(px, py),
                             weight: Rgb::splat(1.0),
                             depth: settings.depth,
+                            skips: MOST_SURFACES,
+                            width: width_at_start,
                         };
                         pass.follow(&ray, x, Jitter::new(x, y, sample), row);
                     }
@@ -194,6 +211,7 @@ fn sample_points(count: u32) -> Vec<[f32; 2]> {
 struct Lights {
     ambient: AmbientLight,
     points: Vec<(PointLight, f32)>,
+    punctual: Vec<(PointLight, f32, Option<Cone>)>,
     directional: Vec<DirectionalLight>,
 }
 
@@ -205,20 +223,33 @@ impl Lights {
                 Err(Error::setting("the colour of a light", format!("{colour:?}"), "it is finite and not negative"))
             }
         };
-        let mut sorted =
-            Self { ambient: AmbientLight::new(Rgb::splat(0.0)), points: Vec::new(), directional: Vec::new() };
+        let mut sorted = Self {
+            ambient: AmbientLight::new(Rgb::splat(0.0)),
+            points: Vec::new(),
+            punctual: Vec::new(),
+            directional: Vec::new(),
+        };
+        let place = |position: Vec3| match position.abs().cmple(Vec3::splat(10.0 * FARTHEST)).all() {
+            true => Ok(position.into()),
+            // The default light stands a few times as far out as the camera.
+            false => {
+                let expected = "its coordinates are finite and at most 1e13 in size";
+                Err(Error::setting("the position of a light", position, expected))
+            }
+        };
         for light in lights {
             match *light {
                 Light::Point { position, intensity, radius } => {
-                    if !position.abs().cmple(Vec3::splat(10.0 * FARTHEST)).all() {
-                        // The default light stands a few times as far out as the camera.
-                        let expected = "its coordinates are finite and at most 1e13 in size";
-                        return Err(Error::setting("the position of a light", position, expected));
-                    }
                     if !(radius >= 0.0 && radius.is_finite()) {
                         return Err(Error::setting("the radius of a light", radius, "it is finite and not negative"));
                     }
-                    sorted.points.push((PointLight::new(position.into(), colour(intensity)?), radius));
+                    sorted.points.push((PointLight::new(place(position)?, colour(intensity)?), radius));
+                }
+                Light::Punctual { position, intensity, range, cone } => {
+                    if range.is_nan() || range <= 0.0 {
+                        return Err(Error::setting("the range of a light", range, "it is positive, or infinite"));
+                    }
+                    sorted.punctual.push((PointLight::new(place(position)?, colour(intensity)?), range, cone));
                 }
                 Light::Directional { to_light, irradiance } => {
                     let to_light = to_light.as_dvec3().try_normalize().ok_or_else(|| {
@@ -240,6 +271,8 @@ struct Pass<'a> {
     lights: Lights,
     background: Background,
     precision: AnyPrecision,
+    /// By how much the width of a pixel grows with each unit of its ray.
+    spread: f32,
 }
 
 /// A point that is being shaded, seen from the unit direction `v`.
@@ -288,10 +321,7 @@ impl<'a> Point<'a> {
         if normal.dot(face) < 0.0 {
             normal = -normal;
         }
-        if normal.dot(v) < LEAST_COSINE {
-            let across = (normal - v * normal.dot(v)).normalize_or(face);
-            normal = (across + v * LEAST_COSINE).normalize();
-        }
+        let normal = bent(normal, v, face);
         Self {
             triangle,
             weights: hit.weights,
@@ -315,6 +345,77 @@ impl<'a> Point<'a> {
             lift -= normal * (below * weight);
         }
         self.outside + lift
+    }
+}
+
+/// A unit normal, or where it faces away from the viewer, the nearest direction in the plane of view that does not.
+fn bent(normal: Vec3, v: Vec3, face: Vec3) -> Vec3 {
+    if normal.dot(v) >= LEAST_COSINE {
+        return normal;
+    }
+    let across = (normal - v * normal.dot(v)).normalize_or(face);
+    (across + v * LEAST_COSINE).normalize()
+}
+
+/// What textures need to know of a point.
+struct Textured {
+    uv: [Vec2; 2],
+    /// The side of the pixel on the surface, in both sets of texture coordinates.
+    footprint: [f32; 2],
+    color: [f32; 4],
+    tangent: Vec3,
+    /// ±1: on which side of normal and tangent the bitangent lies.
+    hand: f32,
+}
+
+impl Textured {
+    /// At a point that is seen with a pixel of this width.
+    fn new(scene: &Scene, point: &Point<'_>, width: f32) -> Self {
+        let [mesh, triangle] = point.triangle.place.map(|index| index as usize);
+        let found = scene.meshes.get(mesh).and_then(|mesh| {
+            let triangle = mesh.triangles.get(triangle)?;
+            let [a, b, c] = triangle.vertices.map(|index| mesh.vertices.get(index as usize).copied());
+            Some([a?, b?, c?])
+        });
+        let corners = found.unwrap_or([Vertex::default(); 3]);
+        let [wa, wb, wc] = point.weights;
+        let [a, b, c] = &corners;
+        let uv = [0, 1].map(|set| a.uv[set] * wa + b.uv[set] * wb + c.uv[set] * wc);
+        let tangent = a.tangent * wa + b.tangent * wb + c.tangent * wc;
+        // A pixel covers width × width/cos on the surface: the square of the same area.
+        let [p, q, r] = point.triangle.corners;
+        let area = (q - p).cross(r - p).length();
+        let seen = width * width / point.face.dot(point.v).max(LEAST_COSINE);
+        let footprint = [0, 1].map(|set| {
+            let (u, v) = (b.uv[set] - a.uv[set], c.uv[set] - a.uv[set]);
+            let side = (u.perp_dot(v).abs() * seen / area).sqrt();
+            if side.is_finite() { side } else { 0.0 }
+        });
+        Self {
+            uv,
+            footprint,
+            color: std::array::from_fn(|i| a.color[i] * wa + b.color[i] * wb + c.color[i] * wc),
+            tangent: tangent.truncate(),
+            hand: if tangent.w < 0.0 { -1.0 } else { 1.0 },
+        }
+    }
+
+    /// The frame of a lobe whose normal and direction are given in the tangent frame of the point.
+    ///
+    /// A mapped normal that faces away from the viewer is bent as an interpolated one is: else bumps would have black
+    /// outlines.
+    fn frame(&self, point: &Point<'_>, normal: Vec3, direction: Vec2) -> Frame {
+        if normal == Vec3::Z && direction == Vec2::X && self.tangent == Vec3::ZERO {
+            return point.frame;
+        }
+        // From behind all three axes point the other way.
+        let side = if point.triangle.face.dot(point.v) < 0.0 { -1.0 } else { 1.0 };
+        let around = Frame::from_normal_tangent(point.frame.normal, (self.tangent * side).into());
+        let (t, n) = (Vec3::from(around.tangent), Vec3::from(around.normal));
+        let b = Vec3::from(around.bitangent) * (self.hand * side);
+        let mapped = (t * normal.x + b * normal.y + n * normal.z).normalize_or(n);
+        let mapped = bent(mapped, point.v, point.face);
+        Frame::from_normal_tangent(mapped.into(), (t * direction.x + b * direction.y).into())
     }
 }
 
@@ -352,7 +453,14 @@ struct Ray {
     direction: Vec3,
     weight: Rgb,
     depth: u32,
+    /// How many surfaces that are not there at all it may still pass.
+    skips: u32,
+    /// The width of its pixel where it starts.
+    width: f32,
 }
+
+/// Light that has passed so many surfaces is taken as lost.
+const MOST_SURFACES: u32 = 256;
 
 /// A row of pixels being computed.
 ///
@@ -361,7 +469,7 @@ struct Ray {
 struct Row {
     /// Of each pixel.
     sums: Vec<Rgb>,
-    /// Of each material.
+    /// Of each material, and then of the coat of each.
     queues: Vec<Queue>,
     /// What a batch has given, cleared after each.
     reflected: [Vec<f32>; 3],
@@ -371,7 +479,7 @@ impl Row {
     fn new(width: usize, materials: usize) -> Self {
         Self {
             sums: vec![Rgb::splat(0.0); width],
-            queues: (0..materials).map(|_| Queue::default()).collect(),
+            queues: (0..2 * materials).map(|_| Queue::default()).collect(),
             reflected: Default::default(),
         }
     }
@@ -394,8 +502,8 @@ struct Way {
 }
 
 impl Queue {
-    fn push(&mut self, point: &Point<'_>, light: Incident, v: lobe::Vec3, way: Way) {
-        self.lit.push(point.frame.to_local(light.l), v, light.irradiance);
+    fn push(&mut self, frame: &Frame, light: Incident, v: lobe::Vec3, parameters: &[f32], way: Way) {
+        self.lit.push(frame.to_local(light.l), v, light.irradiance, parameters);
         self.ways.push(way);
     }
 
@@ -415,25 +523,43 @@ impl Pass<'_> {
         };
         let triangle = &renderer.triangles[hit.triangle as usize];
         let material = &self.materials[triangle.material as usize];
-        let point = Point::new(triangle, &hit, ray.direction);
+        let mut point = Point::new(triangle, &hit, ray.direction);
+        let width = ray.width + self.spread * hit.t;
+        let textured = material.gltf().map(|gltf| (gltf, Textured::new(renderer.scene, &point, width)));
+        let mut solid = material.dissolve;
+        if let Some((gltf, at)) = &textured {
+            solid *= gltf.opacity(at.uv, at.footprint, at.color[3]);
+            if !gltf.factors.double_sided && triangle.face.dot(ray.direction) > 0.0 {
+                solid = 0.0;
+            }
+        }
         let mut weight = ray.weight;
-        if material.dissolve < 1.0 && ray.depth > 0 {
+        let through = if solid <= 0.0 { ray.skips } else { ray.depth };
+        if solid < 1.0 && through > 0 {
+            let [depth, skips] = if solid <= 0.0 { [ray.depth, ray.skips - 1] } else { [ray.depth - 1, ray.skips] };
             let behind = Ray {
                 origin: point.inside,
                 direction: ray.direction,
-                weight: weight * (1.0 - material.dissolve),
-                depth: ray.depth - 1,
+                weight: weight * (1.0 - solid),
+                depth,
+                skips,
+                width,
             };
             self.follow(&behind, pixel, jitter, row);
-            if material.dissolve <= 0.0 {
-                return;
-            }
-            weight = weight * material.dissolve;
+            weight = weight * solid;
+        }
+        if solid <= 0.0 {
+            return;
+        }
+        if let Some((gltf, at)) = textured {
+            self.follow_gltf(gltf, &at, &mut point, pixel, weight, jitter, row);
+            return;
         }
         let own = material.emission + material.ambient * self.lights.ambient.radiance;
         row.sums[pixel] = row.sums[pixel] + weight * own;
         if !matches!(material.surface, Surface::Black) {
-            self.queue_lights(&point, pixel, weight, jitter, &mut row.queues[triangle.material as usize]);
+            let queue = &mut row.queues[triangle.material as usize];
+            self.queue_lights(&point, &point.frame, pixel, weight, jitter, &[], queue);
         }
         if is_black(material.mirror.ks()) || ray.depth == 0 {
             return;
@@ -442,32 +568,101 @@ impl Pass<'_> {
         let mut direction: Vec3 = point.frame.to_world(seen.l).into();
         let below = direction.dot(point.face).min(0.0);
         direction = (direction - point.face * (2.0 * below)).normalize_or(point.face);
-        let mirrored = Ray { origin: point.outside, direction, weight: weight * seen.weight, depth: ray.depth - 1 };
+        let mirrored = Ray {
+            origin: point.outside,
+            direction,
+            weight: weight * seen.weight,
+            depth: ray.depth - 1,
+            skips: ray.skips,
+            width,
+        };
         self.follow(&mirrored, pixel, jitter, row);
     }
 
-    fn queue_lights(&self, point: &Point<'_>, pixel: usize, weight: Rgb, jitter: Jitter, queue: &mut Queue) {
-        let v = point.frame.to_local(point.v.into());
+    /// A point of a material of glTF: its base, and its coat if it has one, in frames of their own.
+    #[allow(clippy::too_many_arguments, reason = "what `follow` knows of the point")]
+    fn follow_gltf(
+        &self,
+        gltf: &GltfMaterial,
+        at: &Textured,
+        point: &mut Point<'_>,
+        pixel: usize,
+        weight: Rgb,
+        jitter: Jitter,
+        row: &mut Row,
+    ) {
+        let [r, g, b, _] = at.color;
+        let found = gltf.at(at.uv, at.footprint, Rgb::new(r, g, b));
+        if gltf.factors.unlit {
+            row.sums[pixel] = row.sums[pixel] + weight * found.base_color;
+            return;
+        }
+        let coat_frame = at.frame(point, found.coat_normal, Vec2::X);
+        point.frame = at.frame(point, found.normal, found.direction);
+        let mut weight_of_base = weight;
+        if gltf.has_coat() {
+            let cosine = Vec3::from(coat_frame.normal).dot(point.v);
+            weight_of_base = weight * below_coat(found.coat, cosine);
+        }
+        let own = found.emission * if gltf.has_coat() { below_coat(found.coat, point.v.dot(point.face)) } else { 1.0 };
+        let ambient = gltf.ambient(&found) * self.lights.ambient.radiance;
+        row.sums[pixel] = row.sums[pixel] + weight * (own + ambient);
+        let (parameters, count) = gltf.parameters(&found);
+        let material = point.triangle.material as usize;
+        let parameters = parameters.get(..count).unwrap_or(&[]);
+        self.queue_lights(point, &point.frame, pixel, weight_of_base, jitter, parameters, &mut row.queues[material]);
+        if gltf.has_coat() && found.coat > 0.0 {
+            let queue = &mut row.queues[self.materials.len() + material];
+            self.queue_lights(point, &coat_frame, pixel, weight, jitter, &[found.coat, found.coat_alpha], queue);
+        }
+    }
+
+    #[allow(clippy::too_many_arguments, reason = "a point, a lobe's frame and numbers, and where they go")]
+    fn queue_lights(
+        &self,
+        point: &Point<'_>,
+        frame: &Frame,
+        pixel: usize,
+        weight: Rgb,
+        jitter: Jitter,
+        parameters: &[f32],
+        queue: &mut Queue,
+    ) {
+        let v = frame.to_local(point.v.into());
         let start = point.shadow_start();
+        let towards = |light: &PointLight| {
+            let way = Vec3::from(light.position) - start;
+            Way { start, to_light: way.normalize_or_zero(), distance: way.length(), pixel, weight }
+        };
         for (light, radius) in &self.lights.points {
             let mut light = *light;
             if *radius > 0.0 {
                 light.position = (Vec3::from(light.position) + jitter.in_ball() * *radius).into();
             }
-            let way = Vec3::from(light.position) - start;
-            let way = Way { start, to_light: way.normalize_or_zero(), distance: way.length(), pixel, weight };
-            queue.push(point, light.at(point.position.into()), v, way);
+            queue.push(frame, light.at(point.position.into()), v, parameters, towards(&light));
+        }
+        for (light, range, cone) in &self.lights.punctual {
+            let mut incident = light.at(point.position.into());
+            let within = (1.0 - (incident.distance / range).powi(4)).max(0.0);
+            let part = cone.map_or(1.0, |cone| cone.part(-Vec3::from(incident.l)));
+            if within * part > 0.0 {
+                incident.irradiance = incident.irradiance * (within * part);
+                queue.push(frame, incident, v, parameters, towards(light));
+            }
         }
         for light in &self.lights.directional {
             let way = Way { start, to_light: light.to_light.into(), distance: f32::INFINITY, pixel, weight };
-            queue.push(point, light.incident(), v, way);
+            queue.push(frame, light.incident(), v, parameters, way);
         }
     }
 
     /// Shades what is in the queues, and empties them.
     fn shade(&self, row: &mut Row) {
-        for (queue, material) in row.queues.iter_mut().zip(self.materials.iter()) {
-            material.surface.shade(&queue.lit, self.precision, &mut row.reflected);
+        for (index, queue) in row.queues.iter_mut().enumerate() {
+            match self.materials.get(index) {
+                Some(material) => material.surface.shade(&queue.lit, self.precision, &mut row.reflected),
+                None => queue.lit.shade_coat(self.precision, &mut row.reflected),
+            }
             let [r, g, b] = &row.reflected;
             for (way, ((&r, &g), &b)) in queue.ways.iter().zip(r.iter().zip(g).zip(b)) {
                 let reflected = Rgb::new(r, g, b);
@@ -482,8 +677,6 @@ impl Pass<'_> {
 
     /// The part of the light that arrives: the product of `1 − d` over the surfaces on the way.
     fn visible(&self, start: Vec3, to_light: Vec3, distance: f32) -> f32 {
-        /// Light that has passed so many surfaces is taken as lost.
-        const MOST_SURFACES: u32 = 256;
         let renderer = self.renderer;
         if !renderer.dissolved {
             return f32::from(u8::from(renderer.bvh.is_free(start.into(), to_light.into(), distance)));
@@ -495,11 +688,18 @@ impl Pass<'_> {
                 return visible;
             };
             let triangle = &renderer.triangles[hit.triangle as usize];
-            visible *= 1.0 - self.materials[triangle.material as usize].dissolve;
+            let material = &self.materials[triangle.material as usize];
+            let point = Point::new(triangle, &hit, to_light);
+            let mut solid = material.dissolve;
+            if let Some(gltf) = material.gltf().filter(|gltf| gltf.is_open()) {
+                let at = Textured::new(renderer.scene, &point, 0.0);
+                solid *= gltf.opacity(at.uv, at.footprint, at.color[3]);
+            }
+            visible *= 1.0 - solid;
             if visible <= 0.0 {
                 return 0.0;
             }
-            start = Point::new(triangle, &hit, to_light).inside;
+            start = point.inside;
             distance -= hit.t;
         }
         0.0
@@ -525,7 +725,7 @@ mod tests {
         let mut wrong = 0;
         for (at, &corners) in corners.iter().enumerate() {
             let face = area_vector(corners).normalize_or_zero().as_vec3();
-            let triangle = ShadingTriangle { corners, normals: [face; 3], face, material: 0 };
+            let triangle = ShadingTriangle { corners, normals: [face; 3], face, material: 0, place: [0; 2] };
             let hit = Hit { triangle: at as u32, t: 1.0, weights: [0.2, 0.3, 0.5] };
             let point = Point::with_offset(&triangle, &hit, -face, units);
             wrong += usize::from(!bvh.is_free(point.outside.into(), face.into(), f32::INFINITY));
@@ -558,7 +758,7 @@ mod tests {
     fn a_normal_that_faces_away_is_bent_to_the_viewer() {
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
         let away = Vec3::new(0.8, 0.0, 0.6);
-        let triangle = ShadingTriangle { corners, normals: [away; 3], face: Vec3::Z, material: 0 };
+        let triangle = ShadingTriangle { corners, normals: [away; 3], face: Vec3::Z, material: 0, place: [0; 2] };
         let hit = Hit { triangle: 0, t: 1.0, weights: [0.4, 0.3, 0.3] };
         // The viewer is low on the other side: 0.8·(−0.98) + 0.6·0.2 < 0.
         let v = Vec3::new(-0.98, 0.0, 0.2).normalize();

@@ -104,8 +104,43 @@ pub enum Light {
         /// Irradiance on a surface that faces it, in W·m⁻².
         irradiance: Rgb,
     },
+    /// A point light of `KHR_lights_punctual`, which may have an end and a cone: the irradiance is
+    /// `I/r² · max(0, 1 − (r/range)⁴)`, times what is in the cone.
+    Punctual {
+        /// Where it is.
+        position: Vec3,
+        /// Intensity, in W·sr⁻¹.
+        intensity: Rgb,
+        /// How far it reaches; infinite for no end.
+        range: f32,
+        /// A spot's cone; `None` shines everywhere.
+        cone: Option<Cone>,
+    },
     /// Light from everywhere: radiance that the ambient reflection of a material multiplies.
     Ambient(Rgb),
+}
+
+/// The cone of a spot light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cone {
+    /// Where it points, of unit length.
+    pub direction: Vec3,
+    /// Up to this angle from the direction it is as bright as can be, in radians.
+    pub inner: f32,
+    /// From this angle on it is dark, in radians, at most π/2.
+    pub outer: f32,
+}
+
+impl Cone {
+    /// The part of the light that goes along the unit vector `away`, by `KHR_lights_punctual`: between the two angles the
+    /// square of a straight line over the cosine.
+    #[must_use]
+    pub fn part(&self, away: Vec3) -> f32 {
+        let (inner, outer) = (self.inner.cos(), self.outer.cos());
+        // The specification's guard against a cone without a soft edge.
+        let part = (self.direction.dot(away) - outer) / (inner - outer).max(1e-3);
+        part.clamp(0.0, 1.0).powi(2)
+    }
 }
 
 /// What is seen where there is nothing, also in mirrors.
@@ -129,6 +164,16 @@ impl Default for Background {
 }
 
 impl Background {
+    /// The mean radiance over all directions.
+    #[must_use]
+    pub fn mean(&self) -> Rgb {
+        match *self {
+            Self::Solid(colour) => colour,
+            // Linear in y, whose mean is 0.
+            Self::Gradient { bottom, top } => (bottom + top) * 0.5,
+        }
+    }
+
     /// The radiance from the unit direction `towards`.
     #[must_use]
     pub fn radiance(&self, towards: Vec3) -> Rgb {

@@ -4,7 +4,7 @@
 //! One holds several files: the first, then each after a line `@name`.
 
 use lobe_scene::image::Display;
-use lobe_scene::{Error, LoadOptions, Renderer, Scene, Settings, ShadingModel, mtl, obj, parse_description};
+use lobe_scene::{Error, LoadOptions, Renderer, Scene, Settings, ShadingModel, gltf, mtl, obj, parse_description};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -120,4 +120,23 @@ fn descriptions() {
         assert!(start.elapsed() < QUICK, "{}: {:?}", path.display(), start.elapsed());
     }
     assert!(drawn >= 5, "only {drawn} could be drawn");
+}
+
+#[test]
+fn gltf_files() {
+    let mut drawn = 0;
+    for (path, content) in files("gltf") {
+        let start = Instant::now();
+        let (first, mut read) = sections(&content);
+        match gltf::parse(first, "a.gltf", &mut read) {
+            Ok(scene) => {
+                let result = draw(&scene);
+                assert!(result.is_ok(), "{}: {result:?}", path.display());
+                drawn += 1;
+            }
+            Err(error) => check_error(&path, &error),
+        }
+        assert!(start.elapsed() < QUICK, "{}: {:?}", path.display(), start.elapsed());
+    }
+    assert!(drawn >= 10, "only {drawn} could be drawn");
 }

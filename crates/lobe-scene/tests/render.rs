@@ -27,7 +27,7 @@ fn diffuse(albedo: f32) -> Material {
 
 /// Straight down from a height.
 fn down(height: f32) -> Camera {
-    Camera { eye: Vec3::Y * height, target: Vec3::ZERO, up: -Vec3::Z, fov_y_degrees: 40.0 }
+    Camera { eye: Vec3::Y * height, target: Vec3::ZERO, up: -Vec3::Z, fov_y_degrees: 40.0, height: None }
 }
 
 fn point(position: [f32; 3], intensity: f32) -> Light {
@@ -79,7 +79,7 @@ fn a_sphere_has_the_analytic_radiance() -> Result<(), Error> {
     };
     let eye = Vec3::new(0.0, 0.0, 5.0);
     let lamp = Vec3::new(2.0, 3.0, 4.0);
-    let camera = Camera { eye, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 30.0 };
+    let camera = Camera { eye, target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 30.0, height: None };
     let settings = Settings { width: 101, height: 101, ..Settings::default() };
     let (points, faces) = sphere(Vec3::ZERO, 1.0, 256);
     for model in [ShadingModel::BlinnTorrance, ShadingModel::Phong] {
@@ -134,7 +134,8 @@ fn a_plate_throws_a_shadow_with_its_own_outline() -> Result<(), Error> {
         materials: vec![diffuse(1.0)],
         ..Scene::default()
     };
-    let camera = Camera { eye: Vec3::new(0.0, 1.0, 3.0), target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 50.0 };
+    let camera =
+        Camera { eye: Vec3::new(0.0, 1.0, 3.0), target: Vec3::ZERO, up: Vec3::Y, fov_y_degrees: 50.0, height: None };
     let renderer = Renderer::new(&scene)?;
     let lamp = Vec3::new(0.0, 4.0, 0.0);
     let image = renderer.render(&view(camera, vec![point(lamp.to_array(), PI)]), &small(), None)?;
@@ -171,7 +172,7 @@ fn surfaces_do_not_shadow_themselves_at_any_size() -> Result<(), Error> {
             ..Scene::default()
         };
         let eye = place + Vec3::new(0.0, 1.0, 5.0) * size;
-        let camera = Camera { eye, target: place, up: Vec3::Y, fov_y_degrees: 30.0 };
+        let camera = Camera { eye, target: place, up: Vec3::Y, fov_y_degrees: 30.0, height: None };
         // The lamp stands beside the eye: everything that is seen is lit.
         let lamp = eye + Vec3::Y * 0.01 * size;
         let image =
@@ -363,6 +364,7 @@ fn odd_scenes_are_drawn() -> Result<(), Error> {
                 target: Vec3::new(0.2, 0.2, 0.0),
                 up: Vec3::Y,
                 fov_y_degrees: 40.0,
+                height: None,
             };
             let image = renderer.render(
                 &view(camera, vec![point([0.25, 0.25, 0.0], 1.0), point([0.0, 0.0, 2.0], 1.0)]),

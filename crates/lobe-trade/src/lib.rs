@@ -59,5 +59,5 @@ mod picture;
 mod subject;
 
 pub use measure::{Bench, Effort, Errors, Number, Quartiles, Row, is_noisy};
-pub use picture::Seen;
+pub use picture::{Seen, delta_e};
 pub use subject::{Form, Subject, catalogue};

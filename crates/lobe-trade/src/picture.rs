@@ -86,17 +86,30 @@ pub(crate) fn compare(a: &[Rgb<f64>], b: &[Rgb<f64>], exposure: f64) -> Seen {
         if a == b {
             continue;
         }
-        let lab = |c: LinSrgb<f64>| -> Lab<D65, f64> { c.into_color() };
-        let eight = |c: LinSrgb<f64>| -> Srgb<u8> { Srgb::from_color(c).into_format() };
-        let delta = difference(lab(a), lab(b));
+        let (delta, steps) = colour_difference(a, b);
         sum += delta;
         seen.worst = seen.worst.max(delta);
-        let (a, b) = (eight(a), eight(b));
-        let steps = a.red.abs_diff(b.red).max(a.green.abs_diff(b.green)).max(a.blue.abs_diff(b.blue));
         seen.steps = seen.steps.max(steps);
     }
     seen.mean = sum / a.len().max(1) as f64;
     seen
+}
+
+/// CIE ΔE 2000 of two linear colours from 0 to 1, and the largest difference of a channel of sRGB in steps of eight bits.
+#[must_use]
+pub fn delta_e(a: [f64; 3], b: [f64; 3]) -> (f64, u8) {
+    if a == b {
+        return (0.0, 0);
+    }
+    colour_difference(LinSrgb::from(a), LinSrgb::from(b))
+}
+
+fn colour_difference(a: LinSrgb<f64>, b: LinSrgb<f64>) -> (f64, u8) {
+    let lab = |c: LinSrgb<f64>| -> Lab<D65, f64> { c.into_color() };
+    let eight = |c: LinSrgb<f64>| -> Srgb<u8> { Srgb::from_color(c).into_format() };
+    let delta = difference(lab(a), lab(b));
+    let (a, b) = (eight(a), eight(b));
+    (delta, a.red.abs_diff(b.red).max(a.green.abs_diff(b.green)).max(a.blue.abs_diff(b.blue)))
 }
 
 fn difference(a: Lab<D65, f64>, b: Lab<D65, f64>) -> f64 {
