@@ -1,6 +1,7 @@
 //! What the fuzz targets share: texts in sections, numbers from bits.
 
 use lobe::{Rgb, Shininess, Vec3};
+use lobe_scene::{Renderer, Scene, Settings};
 use std::io;
 
 /// One input that holds several files: the first one, then each after a line `@name`.
@@ -39,6 +40,18 @@ impl<'a> Files<'a> {
     pub fn read(&self, name: &str) -> io::Result<Vec<u8>> {
         let found = self.others.iter().find(|(given, _)| *given == name.as_bytes()).or(self.others.first());
         found.map(|(_, content)| content.to_vec()).ok_or_else(|| io::ErrorKind::NotFound.into())
+    }
+}
+
+/// Draws the first views of a scene that was read: all of that works.
+pub fn draw(scene: &Scene) {
+    assert!(!scene.views.is_empty());
+    let Ok(renderer) = Renderer::new(scene) else { panic!("a scene that was read can be drawn") };
+    let settings = Settings { width: 3, height: 2, depth: 2, ..Settings::default() };
+    for view in scene.views.iter().take(4) {
+        // A view with its own camera was checked while it was read; a framed one may be out of reach.
+        let image = renderer.render(view, &settings, None);
+        assert!(image.is_ok() || view.camera.is_none(), "{:?}", image.err());
     }
 }
 

@@ -392,8 +392,8 @@ pub(crate) struct PlotArgs {
     /// What to draw
     #[arg(long, value_enum, default_value = "polar")]
     pub(crate) kind: Kind,
-    /// The BRDFs: JSON, @FILE, a preset or a measured one such as ngan:pvc/ward. `surface`, `slices` and `terms` draw
-    /// one, `compare` none, the others up to six
+    /// The BRDFs: JSON, @FILE, a preset or a measured one such as ngan:pvc/ward. `surface`, `slices`, `image` and `terms`
+    /// draw one, `compare` none, the others up to six
     #[arg(value_name = "BRDF")]
     pub(crate) specs: Vec<String>,
     /// One more BRDF; may be given several times
@@ -425,6 +425,7 @@ Examples:
   lobe plot --kind terms ggx-gold -o terms.svg
   lobe plot --kind distribution ggx-plastic ggx-gold --log -o distribution.svg
   lobe plot --kind slices ngan:pvc/cook-torrance --log -o slices.svg
+  lobe plot --kind image ngan:gold-metallic-paint/cook-torrance -o image.svg
   lobe plot --kind compare --incidence 55 --q 50 -o compare.svg
   lobe plot --kind surface '{\"lobes\": [{\"model\": \"phong\", \"ks\": 1, \"q\": 20}]}' -o surface.svg
   lobe plot --kind curve glossy --incidence 80 -o - > curve.svg";
@@ -442,6 +443,8 @@ pub(crate) enum Kind {
     Curve,
     /// One BRDF over the angle of the viewer, for light at 0°, 30°, 60° and 80°
     Slices,
+    /// One isotropic BRDF whole, as a picture over the angles of the halfway vector and of the light to it
+    Image,
     /// The distribution, the masking and the Fresnel term of a microfacet lobe
     Terms,
     /// The distributions of microfacet lobes around the normal, each to its own peak

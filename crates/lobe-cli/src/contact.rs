@@ -7,7 +7,7 @@ use crate::output;
 use crate::progress::Progress;
 use lobe_models::ngan;
 use lobe_scene::image::{Depth, Display};
-use lobe_scene::{Image, Renderer, Settings, procedural};
+use lobe_scene::{Image, Material, Renderer, Settings, procedural};
 use rayon::prelude::*;
 use serde_json::json;
 use std::time::Instant;
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &RenderArgs, png: bool, quiet: bool, as_json: bool) -> R
     let balls: Vec<Image> = materials
         .par_iter()
         .map(|material| {
-            let scene = procedural::swatch(material)?;
+            let scene = procedural::swatch(Material::from_lobes(material.name.as_str(), material))?;
             let image = Renderer::new(&scene)?.render(&scene.views[0], &settings, None)?;
             bar.advance(1);
             Ok(image)

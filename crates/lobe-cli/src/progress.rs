@@ -2,7 +2,11 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
+
+/// Work that takes less is not worth a bar.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Counts work done; after the first second it also shows it, on standard error if that is a terminal.
 #[derive(Debug)]
@@ -24,18 +28,14 @@ impl Progress {
     }
 
     fn with_template(label: &str, total: Option<u64>, template: &str, quiet: bool) -> Self {
-        let bar = ProgressBar::with_draw_target(total, ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
-        }
-        bar.set_prefix(label.to_owned());
+        let bar = hidden(label, total, template);
         Self { bar, start: Instant::now(), visible: AtomicBool::new(quiet) }
     }
 
     /// `steps` more are done.
     pub(crate) fn advance(&self, steps: u64) {
         self.bar.inc(steps);
-        let late = self.start.elapsed() > Duration::from_secs(1);
+        let late = self.start.elapsed() > PATIENCE;
         if late && !self.visible.swap(true, Ordering::Relaxed) {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
@@ -52,8 +52,51 @@ impl Progress {
     }
 }
 
+fn hidden(label: &str, total: Option<u64>, template: &str) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(total, ProgressDrawTarget::hidden());
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar.set_prefix(label.to_owned());
+    bar
+}
+
 impl Drop for Progress {
     /// A bar that has done its work, or failed, leaves nothing behind.
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// Says what is being done, and for how long, of work that says nothing while it is done.
+#[derive(Debug)]
+pub(crate) struct Waiting {
+    bar: ProgressBar,
+    /// Dropped when the work is done.
+    _done: Sender<()>,
+}
+
+impl Waiting {
+    /// Never shown if `quiet`, nor in the first second.
+    pub(crate) fn new(label: &str, quiet: bool) -> Self {
+        let (done, wait) = channel();
+        let bar = hidden(label, None, "{prefix:>14} {spinner} {elapsed}");
+        if !quiet {
+            let shown = bar.clone();
+            std::thread::spawn(move || show(&shown, &wait));
+        }
+        Self { bar, _done: done }
+    }
+}
+
+fn show(bar: &ProgressBar, wait: &Receiver<()>) {
+    if wait.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+        bar.set_draw_target(ProgressDrawTarget::stderr());
+        bar.enable_steady_tick(Duration::from_millis(200));
+    }
+}
+
+impl Drop for Waiting {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }

@@ -4,7 +4,7 @@ use crate::args::RenderArgs;
 use crate::contact;
 use crate::error::Failure;
 use crate::output;
-use crate::progress::Progress;
+use crate::progress::{Progress, Waiting};
 use crate::spec;
 use lobe_scene::image::{Depth, Display, MAX_PIXELS, Tone, check_ending};
 use lobe_scene::procedural::show_material;
@@ -49,7 +49,7 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
     }
     let scene = match (&material, &args.scene) {
         (Some(material), None) => show_material(material)?,
-        _ => open(args.scene.as_deref(), args.shading.as_deref())?,
+        _ => open(args.scene.as_deref(), args.shading.as_deref(), quiet)?,
     };
     if !quiet {
         for warning in &scene.warnings {
@@ -64,7 +64,7 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
     relight(&mut view, &scene, args, width as f32 / height as f32);
     let settings = Settings { width, height, samples: args.samples, precision: args.precision, ..Settings::default() };
     let start = Instant::now();
-    let renderer = Renderer::new(&scene)?;
+    let renderer = prepare(&scene, quiet)?;
     let image = take(&renderer, &view, &settings, &view.name, quiet)?;
     let seconds = start.elapsed().as_secs_f64();
     let depth = if args.deep { Depth::Sixteen } else { Depth::Eight };
@@ -114,13 +114,20 @@ fn relight(view: &mut View, scene: &Scene, args: &RenderArgs, aspect: f32) {
 }
 
 /// The scene of a file, or the built-in one.
-pub(crate) fn open(path: Option<&Path>, shading: Option<&str>) -> Result<Scene, Failure> {
+pub(crate) fn open(path: Option<&Path>, shading: Option<&str>, quiet: bool) -> Result<Scene, Failure> {
+    let _waiting = Waiting::new("reading", quiet);
     let shading_model = shading.map(|name| name.parse::<ShadingModel>().map_err(|e| Failure::Usage(e.to_string())));
     let options = LoadOptions { shading_model: shading_model.transpose()?, ..LoadOptions::default() };
     Ok(match path {
         Some(path) => load(path, &options)?,
         None => default_scene(&options)?,
     })
+}
+
+/// The tree for the rays.
+pub(crate) fn prepare(scene: &Scene, quiet: bool) -> Result<Renderer<'_>, Failure> {
+    let _waiting = Waiting::new("tree", quiet);
+    Ok(Renderer::new(scene)?)
 }
 
 /// The view of this name, or the first.

@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// Runs the verb.
 pub(crate) fn run(args: &TradeArgs, quiet: bool, json: bool) -> Result<(), Failure> {
-    let subjects = subjects(args)?;
+    let subjects = subjects(args, quiet)?;
     for file in [&args.csv, &args.markdown].into_iter().flatten() {
         check_writable(file)?;
     }
@@ -77,9 +77,9 @@ pub(crate) fn run(args: &TradeArgs, quiet: bool, json: bool) -> Result<(), Failu
 }
 
 /// What is to be measured: the materials of a scene, one of the catalogue, or all of that.
-fn subjects(args: &TradeArgs) -> Result<Vec<Subject>, Failure> {
+fn subjects(args: &TradeArgs, quiet: bool) -> Result<Vec<Subject>, Failure> {
     if let Some(path) = &args.scene {
-        let all = of_scene(&render::open(Some(path), None)?);
+        let all = of_scene(&render::open(Some(path), None, quiet)?);
         if all.is_empty() {
             let path = path.display();
             return Err(Failure::Input(format!("{path}: no material of this scene has lobes; give one that reflects")));

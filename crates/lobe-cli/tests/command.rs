@@ -275,7 +275,7 @@ fn the_terms_of_microfacet_lobes_are_drawn_and_others_have_none() {
     let run = lobe(&["plot", "--kind", "slices", "paper", "glossy"], "");
     fails(&run, 2, "2 BRDFs; --kind slices draws at most 1");
     let run = lobe(&["plot", "--kind", "terms", "--log"], "");
-    fails(&run, 2, "--log is not for --kind terms; leave it out, or take --kind polar, slices or distribution");
+    fails(&run, 2, "--log is not for --kind terms; leave it out, or take --kind polar, slices, image or distribution");
 }
 
 #[test]
@@ -467,7 +467,8 @@ fn a_report_is_one_page_that_needs_nothing_else() {
 
     let page = fs::read_to_string(folder.path().join("out/index.html")).expect("a page");
     let images: Vec<&str> = page.split("<img").skip(1).collect();
-    assert_eq!(images.len(), 1);
+    // The view, and a sphere of its one material.
+    assert_eq!(images.len(), 2);
     assert!(
         images
             .iter()
@@ -601,5 +602,34 @@ fn pictures_are_compared() {
     ] {
         let (code, _, errors) = run(&["render", "-o", "x.png", argument, value]);
         assert!(code == Some(2) && errors.contains(expected), "{argument}: {errors}");
+    }
+}
+
+/// Ctrl-C in the middle of a picture, of a report and of a plot's file: what was there stays, and nothing new is left.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_no_half_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("old.png"), "old").expect("a file");
+    for arguments in [
+        &["render", "--samples", "4096", "-o", "old.png"][..],
+        &["render", "--samples", "4096", "-o", "new.png"],
+        &["report", "--samples", "256", "-o", "."],
+    ] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_lobe"))
+            .args(arguments)
+            .current_dir(folder.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        std::thread::sleep(Duration::from_millis(700));
+        let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("a signal");
+        let status = child.wait().expect("the program ends");
+        assert!(sent.success() && status.code().is_none(), "{arguments:?} ended before: {status}");
+        let names: Vec<_> =
+            fs::read_dir(folder.path()).expect("the folder").map(|e| e.expect("an entry").file_name()).collect();
+        assert_eq!(names, ["old.png"], "{arguments:?}");
+        assert_eq!(fs::read_to_string(folder.path().join("old.png")).expect("a file"), "old");
     }
 }

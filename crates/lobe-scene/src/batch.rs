@@ -110,6 +110,7 @@ impl Surface {
             Self::NormalizedBlinnPhong(lobes) => run(precision, Shade(*lobes), inputs, out),
             Self::Lobes(lobes) => lobes.batch().shade(Batch::new().level(), precision, l, v, irradiance, out),
             Self::Gltf(material) => points.shade_gltf(material, precision, out),
+            Self::Mapped(mapped) => run(precision, Shade(mapped.diffuse), inputs, out),
             Self::Other(lobes) => {
                 points.each(&**lobes, out);
                 Ok(())

@@ -157,7 +157,8 @@ pub struct Maps {
 
 /// A material of glTF 2.0.
 ///
-/// It is the smallest sum of lobes that it needs: an extension that is absent, or at its default, is not computed.
+/// A layer that is absent is not computed, and `KHR_materials_ior` and `specular` at their defaults are not either, unless
+/// the material needs the kernel for anisotropy or sheen. Dielectric and metal are always both computed.
 #[derive(Debug, Clone, Default)]
 pub struct GltfMaterial {
     /// Its numbers.
@@ -244,11 +245,8 @@ impl GltfMaterial {
             let [r, g, b, _] = read(map);
             Rgb::from(factor) * Rgb::new(r, g, b)
         };
-        let normal = |map: &Option<Map>, scale: f32| {
-            let Some(map) = map else { return Vec3::Z };
-            let [x, y, z, _] = map.at(uv, footprint).map(|x| 2.0 * x - 1.0);
-            Vec3::new(x * scale, y * scale, z).try_normalize().unwrap_or(Vec3::Z)
-        };
+        let normal =
+            |map: &Option<Map>, scale: f32| map.as_ref().map_or(Vec3::Z, |map| map.normal(scale, uv, footprint));
         let [_, roughness, metallic, _] = read(&maps.metallic_roughness);
         let (sine, cosine) = factors.anisotropy_rotation.sin_cos();
         let (mut direction, mut anisotropy) = (Vec2::X, factors.anisotropy);
@@ -279,12 +277,23 @@ impl GltfMaterial {
         }
     }
 
-    /// What of a uniform ambient radiance is sent on, roughly: the base colour of the diffuse part, and `f0`.
-    pub(crate) fn ambient(&self, at: &AtPoint) -> Rgb {
-        let f0 = ((self.factors.ior - 1.0) / (self.factors.ior + 1.0)).powi(2) * at.specular;
-        let dielectric = at.base_color * (1.0 - f0) + at.specular_color * f0;
-        let base = dielectric * (1.0 - at.metallic) + at.base_color * at.metallic;
-        (base * (1.0 - 0.04 * at.coat) + Rgb::splat(0.04 * at.coat)) * at.occlusion
+    /// What of ambient light is sent on, roughly, seen at these cosines to the normals of base and coat: of light from all
+    /// around, by the diffuse lobe; and of light from around the mirror direction, by the others.
+    ///
+    /// The albedo of a microfacet lobe is Karis' fit (*Physically Based Shading on Mobile*, 2014).
+    pub(crate) fn ambient(&self, at: &AtPoint, cos: f32, coat_cos: f32) -> (Rgb, Rgb) {
+        let f0 = ((self.factors.ior - 1.0) / (self.factors.ior + 1.0)).powi(2);
+        let f0 = (at.specular_color * f0).map(|f0| f0.min(1.0)) * at.specular;
+        let (scale, bias) = albedo(at.alpha, cos);
+        let dielectric = f0 * scale + Rgb::splat(bias * at.specular);
+        let metal = at.base_color * scale + Rgb::splat(bias);
+        let specular = dielectric * (1.0 - at.metallic) + metal * at.metallic;
+        let below = Rgb::new(1.0 - dielectric.r, 1.0 - dielectric.g, 1.0 - dielectric.b);
+        let diffuse = at.base_color * below * (1.0 - at.metallic);
+        let (scale, bias) = albedo(at.coat_alpha, coat_cos);
+        let coat = (0.04 * scale + bias) * at.coat;
+        let rest = at.occlusion * (1.0 - coat);
+        (diffuse * rest, specular * rest + Rgb::splat(coat * at.occlusion))
     }
 
     /// What goes into the columns of a batch for a point: as many numbers as the kernel has parameters.
@@ -309,8 +318,8 @@ impl GltfMaterial {
         (all, if self.is_full() { FULL } else { PLAIN })
     }
 
-    /// Its lobes as the catalogue has them, with the factors and without textures; none for an unlit one. A coat and a
-    /// sheen at once are a lobe each.
+    /// Its lobe as the catalogue has it, for tables and plots: with the factors and without textures. None for an unlit one.
+    /// What the catalogue does not have is left out: a sheen under a coat, and an `ior` of 0 or above 4.
     #[must_use]
     pub fn lobes(&self) -> Vec<lobe_models::Lobe> {
         use lobe_models::{Lobe, Value, model};
@@ -355,6 +364,56 @@ impl GltfMaterial {
         built.and_then(Result::ok).into_iter().collect()
     }
 
+    /// Which lobes it is made of, and why, in words with `code` between backticks; then what is left out.
+    #[must_use]
+    pub fn reasons(&self) -> Vec<String> {
+        let (f, maps, default) = (&self.factors, &self.maps, Factors::default());
+        if f.unlit {
+            return vec!["no lobe: it is unlit, and its base color is what is seen".to_owned()];
+        }
+        let mut has =
+            vec!["`gltf`: a diffuse and a microfacet lobe, which every material of metal and roughness has".to_owned()];
+        let mut lacks = Vec::new();
+        let mut part = |there: bool, what: String, name: &'static str| match there {
+            true => has.push(what),
+            false => lacks.push(name),
+        };
+        let number = |name: &str, x: f32| format!("`{name}` is {x}");
+        let specular = match (maps.specular.is_some() || maps.specular_color.is_some(), f.ior != default.ior) {
+            (true, _) => "a picture says it point by point".to_owned(),
+            (false, true) => number("ior", f.ior),
+            (false, false) if f.specular != default.specular => number("specular", f.specular),
+            (false, false) => "its colour is not white".to_owned(),
+        };
+        let is_special = !self.plain().is_default() || maps.specular.is_some() || maps.specular_color.is_some();
+        part(is_special, format!("a dielectric reflectance of its own: {specular}"), "`specular` and `ior`");
+        let anisotropy = number("anisotropy", f.anisotropy);
+        part(self.is_anisotropic(), format!("two widths: {anisotropy}"), "anisotropy");
+        part(self.has_sheen(), "a lobe of sheen: its colour is not black".to_owned(), "sheen");
+        let coat = number("clearcoat", f.clearcoat);
+        part(self.has_coat(), format!("a lobe of the coat, in its own frame: {coat}"), "clearcoat");
+        if !lacks.is_empty() {
+            has.push(format!("left out, at their defaults: {}", lacks.join(", ")));
+        }
+        let pictures = [
+            ("base color", &maps.base_color),
+            ("metal and roughness", &maps.metallic_roughness),
+            ("normal", &maps.normal),
+            ("occlusion", &maps.occlusion),
+            ("emission", &maps.emission),
+            ("specular", &maps.specular),
+            ("specular color", &maps.specular_color),
+            ("anisotropy", &maps.anisotropy),
+            ("coat", &maps.clearcoat),
+            ("coat's roughness", &maps.clearcoat_roughness),
+            ("coat's normal", &maps.clearcoat_normal),
+            ("sheen", &maps.sheen_color),
+            ("sheen's roughness", &maps.sheen_roughness),
+        ];
+        has.extend(crate::maps::pictures(&pictures));
+        has
+    }
+
     /// The kernel of a base without layers, whose `KHR_materials_specular` is the same everywhere.
     pub(crate) fn plain(&self) -> Plain {
         let Factors { ior, specular, specular_color, .. } = self.factors;
@@ -367,6 +426,16 @@ impl GltfMaterial {
     pub(crate) fn full(&self) -> Full {
         Full { ior: self.factors.ior, anisotropic: self.is_anisotropic(), sheen: self.has_sheen() }
     }
+}
+
+/// The albedo of a microfacet lobe as `F0 · scale + bias`.
+fn albedo(alpha: f32, cos: f32) -> (f32, f32) {
+    let roughness = alpha.sqrt();
+    let [x, y, z, w] =
+        [1.0 - roughness, 0.0425 - 0.0275 * roughness, 1.04 - 0.572 * roughness, 0.022 * roughness - 0.04];
+    let a = (x * x).min((-9.28 * cos).exp2()) * x + y;
+    // The fit goes a little below 0 at some angles, and a surface never takes light away.
+    ((z - 1.04 * a).max(0.0), (w + 1.04 * a).max(0.0))
 }
 
 /// How many parameters [`Plain`] has.
@@ -384,6 +453,12 @@ pub(crate) type FullInput<R> = (PlainInput<R>, (R, Rgb<R>), R, (Rgb<R>, R));
 pub(crate) struct Plain {
     /// `η`, the weight and the colour, if they are not the default.
     specular: Option<(f32, f32, [f32; 3])>,
+}
+
+impl Plain {
+    fn is_default(&self) -> bool {
+        self.specular.is_none()
+    }
 }
 
 impl<R: Real> Kernel<((lobe::Vec3<R>, lobe::Vec3<R>, Rgb<R>), PlainInput<R>), Rgb<R>> for Plain {
@@ -426,7 +501,8 @@ impl<R: Real> Kernel<((lobe::Vec3<R>, lobe::Vec3<R>, Rgb<R>), FullInput<R>), Rgb
     }
 }
 
-/// `eval_cos · E` of a coat alone, for its intensity and its `α`. What is below it gets the rest, [`below_coat`].
+/// `eval_cos · E` of a coat alone, for its intensity and its `α`. What is below it gets the rest,
+/// [`Clearcoat::transmitted`].
 #[derive(Clone, Copy)]
 pub(crate) struct Coat;
 
@@ -435,9 +511,4 @@ impl<R: Real> Kernel<((lobe::Vec3<R>, lobe::Vec3<R>, Rgb<R>), (R, R)), Rgb<R>> f
     fn apply(&self, ((l, v, e), (coat, alpha)): ((lobe::Vec3<R>, lobe::Vec3<R>, Rgb<R>), (R, R))) -> Rgb<R> {
         Clearcoat::new(Black, coat, Alpha(alpha)).eval_cos(l, v) * e
     }
-}
-
-/// The part that a coat lets through: `1 − c (0.04 + 0.96 (1 − n·v)⁵)` of `KHR_materials_clearcoat`.
-pub(crate) fn below_coat(coat: f32, n_dot_v: f32) -> f32 {
-    1.0 - coat * (0.04 + 0.96 * (1.0 - n_dot_v).clamp(0.0, 1.0).powi(5))
 }

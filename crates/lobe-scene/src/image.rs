@@ -341,8 +341,9 @@ fn from_pfm(bytes: &[u8]) -> Result<Image, String> {
     Ok(image)
 }
 
-/// The inverse of [`srgb`].
-fn linear(code: f32) -> f32 {
+/// The inverse of [`srgb`]: what a screen sends out for `code`, from 0 to 1.
+#[must_use]
+pub fn linear(code: f32) -> f32 {
     if code <= 0.04045 { code / 12.92 } else { ((code + 0.055) / 1.055).powf(2.4) }
 }
 

@@ -37,7 +37,7 @@
 //!
 //! # Limits
 //!
-//! No texture maps in OBJ, no refraction, no light that bounces between diffuse surfaces. Coordinates up to
+//! No refraction, no light that bounces between diffuse surfaces. Coordinates up to
 //! [`MAX_COORDINATE`]. Nothing that a file holds makes a function panic, and nothing is allocated from a number that
 //! a file merely states.
 
@@ -54,6 +54,7 @@ pub mod gltf;
 mod gltf_material;
 pub mod image;
 mod lines;
+mod maps;
 mod material;
 mod mesh;
 pub mod mtl;
@@ -63,6 +64,7 @@ mod picture;
 pub mod procedural;
 mod render;
 mod scene;
+mod tangents;
 pub mod texture;
 mod triangulate;
 
@@ -73,7 +75,8 @@ pub use error::{Error, Warning};
 pub use files::{check_writable, write_all_atomically, write_atomically};
 pub use gltf_material::{Factors, GltfMaterial, Maps};
 pub use image::Image;
-pub use material::{AnyBrdf, LobeRecord, Material, NamedLobes, ShadingModel, Surface};
+pub use maps::MtlMaps;
+pub use material::{AnyBrdf, LobeRecord, MappedLobes, Material, NamedLobes, ShadingModel, Surface};
 pub use mesh::{MAX_COORDINATE, Mesh, Triangle, Vertex};
 pub use normals::Smoothing;
 pub use render::{Progress, Renderer, Settings};

@@ -1,7 +1,10 @@
 //! A material: the lecture's equation as lobes.
 
-use crate::gltf_material::GltfMaterial;
-use crate::mtl::{Illumination, MtlMaterial};
+use crate::gltf_material::{Factors, GltfMaterial, Maps};
+use crate::maps::MtlMaps;
+use crate::mtl::{Illumination, MtlMaterial, Pbr};
+use crate::texture::Map;
+use glam::Vec2;
 use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
 use lobe::{BlinnPhong, Brdf, Lambert, Mirror, Phong, Rgb, Shininess, Sum};
 use std::fmt;
@@ -84,8 +87,59 @@ pub enum Surface {
     Lobes(Arc<NamedLobes>),
     /// A material of glTF 2.0, whose numbers may differ from point to point.
     Gltf(Arc<GltfMaterial>),
+    /// The lecture's equation with pictures in place of some of its numbers.
+    Mapped(Arc<MappedLobes>),
     /// Any other BRDF, given from Rust.
     Other(Arc<dyn AnyBrdf>),
+}
+
+/// The lobes of a material of MTL with pictures.
+///
+/// Diffuse and highlight are shaded one by one, each with its own weight at every point; so they are the same kernels as
+/// without pictures.
+#[derive(Debug, Clone)]
+pub struct MappedLobes {
+    /// The lobes with their numbers, without the pictures.
+    pub lobes: Surface,
+    /// The pictures.
+    pub maps: MtlMaps,
+    pub(crate) diffuse: Lambert,
+    pub(crate) highlight: Option<Surface>,
+}
+
+/// What the parts of a material are multiplied with at a point, and its normal in the tangent frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MappedAt {
+    pub(crate) ambient: Rgb,
+    pub(crate) diffuse: Rgb,
+    pub(crate) specular: Rgb,
+    pub(crate) emission: Rgb,
+    pub(crate) normal: glam::Vec3,
+}
+
+impl Default for MappedAt {
+    /// Without pictures.
+    fn default() -> Self {
+        let one = Rgb::splat(1.0);
+        Self { ambient: one, diffuse: one, specular: one, emission: one, normal: glam::Vec3::Z }
+    }
+}
+
+impl MappedLobes {
+    pub(crate) fn at(&self, uv: [Vec2; 2], footprint: [f32; 2]) -> MappedAt {
+        let rgb = |map: &Option<Map>| {
+            let [r, g, b, _] = map.as_ref().map_or([1.0; 4], |map| map.at(uv, footprint));
+            Rgb::new(r, g, b)
+        };
+        let maps = &self.maps;
+        MappedAt {
+            ambient: rgb(&maps.ambient),
+            diffuse: rgb(&maps.diffuse),
+            specular: rgb(&maps.specular),
+            emission: rgb(&maps.emission),
+            normal: maps.normal.as_ref().map_or(glam::Vec3::Z, |map| map.normal(maps.normal_scale, uv, footprint)),
+        }
+    }
 }
 
 /// Lobes of the catalogue, ready to be evaluated.
@@ -227,12 +281,103 @@ impl Material {
         }
     }
 
-    /// Whether light gets through it somewhere.
-    pub(crate) fn is_open(&self) -> bool {
-        self.dissolve < 1.0 || self.gltf().is_some_and(GltfMaterial::is_open)
+    /// Its lobes with pictures, if it is of MTL and has any.
+    #[must_use]
+    pub fn mapped(&self) -> Option<&MappedLobes> {
+        match &self.surface {
+            Surface::Mapped(mapped) => Some(mapped),
+            _ => None,
+        }
     }
 
-    /// The material of a file as lobes. What is not there by `illum` is left out.
+    /// Whether some of its numbers are pictures.
+    pub(crate) fn is_textured(&self) -> bool {
+        self.mapped().is_some() || self.gltf().is_some()
+    }
+
+    /// How solid it is at a point, its dissolve included.
+    pub(crate) fn opacity(&self, uv: [Vec2; 2], footprint: [f32; 2], color: f32) -> f32 {
+        let map = match &self.surface {
+            Surface::Gltf(gltf) => gltf.opacity(uv, footprint, color),
+            Surface::Mapped(mapped) => mapped.maps.dissolve.as_ref().map_or(1.0, |map| map.at(uv, footprint)[0]),
+            _ => 1.0,
+        };
+        self.dissolve * map
+    }
+
+    /// Whether light gets through it somewhere.
+    pub(crate) fn is_open(&self) -> bool {
+        let mapped = |mapped: &MappedLobes| mapped.maps.dissolve.is_some();
+        self.dissolve < 1.0 || self.gltf().is_some_and(GltfMaterial::is_open) || self.mapped().is_some_and(mapped)
+    }
+
+    /// Which lobes it is made of, and why, in words with `code` between backticks. Empty for lobes that were named.
+    #[must_use]
+    pub fn reasons(&self) -> Vec<String> {
+        const BOTH: &str = "a diffuse lobe and a highlight: `illum` asks for one, and `Ks` is not black";
+        let mut reasons = Vec::new();
+        let lecture = |surface: &Surface| match surface {
+            Surface::Black => Some("no lobe: `illum 0` is a colour without light"),
+            Surface::Diffuse(_) => Some("a diffuse lobe alone: `illum` asks for no highlight, or `Ks` is black"),
+            Surface::BlinnTorrance(_) | Surface::Phong(_) => Some(BOTH),
+            Surface::NormalizedPhong(_) | Surface::NormalizedBlinnPhong(_) => Some(BOTH),
+            Surface::Mapped(_) | Surface::Gltf(_) | Surface::Lobes(_) | Surface::Other(_) => None,
+        };
+        match &self.surface {
+            Surface::Gltf(gltf) => reasons = gltf.reasons(),
+            Surface::Mapped(mapped) => {
+                let maps = &mapped.maps;
+                reasons.extend(lecture(&mapped.lobes).map(str::to_owned));
+                reasons.extend(crate::maps::pictures(&[
+                    ("ambient", &maps.ambient),
+                    ("diffuse", &maps.diffuse),
+                    ("highlight", &maps.specular),
+                    ("emission", &maps.emission),
+                    ("dissolve", &maps.dissolve),
+                    ("normal", &maps.normal),
+                ]));
+            }
+            surface => reasons.extend(lecture(surface).map(str::to_owned)),
+        }
+        if self.mirror.ks() != Rgb::splat(0.0) {
+            reasons.push("a mirror: `illum` is 3 or above".to_owned());
+        }
+        reasons
+    }
+
+    /// The material of a file, with its pictures.
+    #[must_use]
+    pub fn from_mtl_with(mtl: &MtlMaterial, maps: &MtlMaps, model: ShadingModel) -> Self {
+        if let Some(pbr) = &mtl.pbr {
+            return Self::from_gltf(mtl.name.as_str(), metallic_roughness(mtl, pbr, maps));
+        }
+        let mut material = Self::from_mtl(mtl, model);
+        if maps.is_empty() {
+            return material;
+        }
+        let mut maps = maps.clone();
+        // What stands for another number takes its picture, too.
+        if mtl.ka.is_none() {
+            maps.ambient = maps.ambient.or_else(|| maps.diffuse.clone());
+        }
+        if mtl.illumination == Illumination::Constant {
+            maps.emission = maps.diffuse.clone();
+        }
+        let lobes = std::mem::take(&mut material.surface);
+        let (diffuse, highlight) = match lobes {
+            Surface::Black => (Rgb::splat(0.0), None),
+            Surface::Diffuse(_) => (Rgb::from(mtl.kd), None),
+            _ => {
+                let highlight = Surface::new(model, Rgb::splat(0.0), Rgb::from(mtl.ks), Shininess(mtl.ns));
+                (Rgb::from(mtl.kd), Some(highlight))
+            }
+        };
+        let mapped = MappedLobes { lobes, maps, diffuse: Lambert::new(diffuse), highlight };
+        material.surface = Surface::Mapped(Arc::new(mapped));
+        material
+    }
+
+    /// The material of a file as lobes, without its pictures. What is not there by `illum` is left out.
     #[must_use]
     pub fn from_mtl(mtl: &MtlMaterial, model: ShadingModel) -> Self {
         let (kd, ks) = (Rgb::from(mtl.kd), Rgb::from(mtl.ks));
@@ -261,6 +406,48 @@ impl Material {
         }
         material
     }
+}
+
+/// A PBR material of MTL in the terms of glTF, whose equations it takes.
+fn metallic_roughness(mtl: &MtlMaterial, pbr: &Pbr, maps: &MtlMaps) -> GltfMaterial {
+    // Of a sheen the file has the amount alone.
+    const SHEEN_ROUGHNESS: f32 = 0.5;
+    let mut factors = Factors {
+        base_color: mtl.kd,
+        opacity: mtl.d,
+        metallic: pbr.metallic,
+        roughness: pbr.roughness.unwrap_or(1.0),
+        emission: mtl.ke,
+        normal_scale: maps.normal_scale,
+        ior: if pbr.ior >= 1.0 { pbr.ior } else { 1.5 },
+        anisotropy: pbr.anisotropy,
+        anisotropy_rotation: pbr.anisotropy_rotation * std::f32::consts::TAU,
+        clearcoat: pbr.clearcoat,
+        clearcoat_roughness: pbr.clearcoat_roughness,
+        sheen_color: [pbr.sheen; 3],
+        sheen_roughness: SHEEN_ROUGHNESS,
+        double_sided: true,
+        blend: mtl.d < 1.0 || mtl.maps.iter().any(|map| map.target == crate::mtl::MapUse::Dissolve),
+        ..Factors::default()
+    };
+    // A picture alone stands for its number.
+    let given = |target| mtl.maps.iter().any(|map| map.target == target);
+    if given(crate::mtl::MapUse::Metallic) && pbr.metallic == 0.0 {
+        factors.metallic = 1.0;
+    }
+    if given(crate::mtl::MapUse::Sheen) && pbr.sheen == 0.0 {
+        factors.sheen_color = [1.0; 3];
+    }
+    factors.bring_into_domain();
+    let maps = Maps {
+        base_color: maps.diffuse.clone(),
+        metallic_roughness: maps.metallic_roughness.clone(),
+        normal: maps.normal.clone(),
+        emission: maps.emission.clone(),
+        sheen_color: maps.sheen.clone(),
+        ..Maps::default()
+    };
+    GltfMaterial { factors, maps }
 }
 
 /// One lobe of a material, for a table.
@@ -363,6 +550,7 @@ impl Surface {
             }
             Self::Lobes(lobes) => lobes.material.lobes.iter().map(LobeRecord::named).collect(),
             Self::Gltf(material) => material.lobes().iter().map(LobeRecord::named).collect(),
+            Self::Mapped(mapped) => mapped.lobes.lobes(),
             Self::Other(_) => {
                 let parameters = String::new();
                 vec![LobeRecord { model: "other", parameters, reflectance: None, exponent: None, reference: None }]

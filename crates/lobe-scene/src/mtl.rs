@@ -19,9 +19,23 @@
 //! | `d a` | dissolve: 1 is solid, 0 is not there | 0 … 1 | 1 |
 //! | `Tr t` | the same as `d` with `1 − t` | 0 … 1 | |
 //! | `illum n` | which terms are used, see [`Illumination`] | 0 … 10 | 2 if `Ks` is not 0, else 1 |
+//! | `map_Ka map_Kd map_Ks map_Ke map_d file` | a picture that the number is multiplied with | | |
+//! | `norm file`, `bump file` | a normal map; a map of heights, or of normals if it is not grey | | |
 //!
-//! Colours are linear RGB. One number alone stands for all three. `Ni` and `sharpness` concern refraction
-//! and blurred reflections, which are not supported; they are checked and have no effect.
+//! A material with one of these is a [`Pbr`] material instead: `Kd` is its base colour, and `Ka`, `Ks` and `illum` have no effect.
+//!
+//! | statement | meaning | domain | when absent |
+//! |---|---|---|---|
+//! | `Pr r` | perceptual roughness, whose square is `α` | 0 … 1 | `(2/(Ns + 2))^¼` if there is an `Ns`, else 1 |
+//! | `Pm m` | metallic | 0 … 1 | 0 |
+//! | `Ps s` | sheen | 0 … 1 | 0 |
+//! | `Pc c`, `Pcr r` | clearcoat, its roughness | 0 … 1 | 0 |
+//! | `aniso a`, `anisor t` | anisotropy, its rotation in turns | 0 … 1 | 0 |
+//! | `map_Pr map_Pm map_Ps file` | a picture that the number is multiplied with | | |
+//!
+//! Colours are linear RGB; those of pictures follow the curve of sRGB. One number alone stands for all three. `Ni` and
+//! `sharpness` concern refraction and blurred reflections, which are not supported; they are checked and have no effect but
+//! one: `Ni` is the `ior` of a PBR material.
 
 use crate::error::{Error, Warning, Warnings};
 use crate::lines::{Place, Statements, keyword, shown, text, words};
@@ -48,6 +62,184 @@ pub enum Illumination {
     Mirror,
 }
 
+/// The statements that make a material one of metallic and roughness: an extension of the format that came with exporters of
+/// such materials (Exocortex, 2013), of which there is no specification.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Pbr {
+    /// `Pr`: perceptual roughness.
+    pub roughness: Option<f32>,
+    /// `Pm`.
+    pub metallic: f32,
+    /// `Ps`: sheen.
+    pub sheen: f32,
+    /// `Pc`: clearcoat.
+    pub clearcoat: f32,
+    /// `Pcr`: its roughness.
+    pub clearcoat_roughness: f32,
+    /// `aniso`: anisotropy.
+    pub anisotropy: f32,
+    /// `anisor`: its rotation, in turns.
+    pub anisotropy_rotation: f32,
+    /// `Ni`: the index of refraction.
+    pub ior: f32,
+}
+
+impl Default for Pbr {
+    fn default() -> Self {
+        Self {
+            roughness: None,
+            metallic: 0.0,
+            sheen: 0.0,
+            clearcoat: 0.0,
+            clearcoat_roughness: 0.0,
+            anisotropy: 0.0,
+            anisotropy_rotation: 0.0,
+            ior: 1.5,
+        }
+    }
+}
+
+/// What a picture is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum MapUse {
+    /// `map_Ka`.
+    Ambient,
+    /// `map_Kd`.
+    Diffuse,
+    /// `map_Ks`.
+    Specular,
+    /// `map_Ke`.
+    Emission,
+    /// `map_d`.
+    Dissolve,
+    /// `map_Pr`.
+    Roughness,
+    /// `map_Pm`.
+    Metallic,
+    /// `map_Ps`.
+    Sheen,
+    /// `norm`.
+    Normal,
+    /// `bump`, `map_bump` or `map_Bump`.
+    Bump,
+}
+
+impl MapUse {
+    fn of(key: &[u8]) -> Option<Self> {
+        Some(match key {
+            b"map_Ka" => Self::Ambient,
+            b"map_Kd" => Self::Diffuse,
+            b"map_Ks" => Self::Specular,
+            b"map_Ke" => Self::Emission,
+            b"map_d" => Self::Dissolve,
+            b"map_Pr" => Self::Roughness,
+            b"map_Pm" => Self::Metallic,
+            b"map_Ps" => Self::Sheen,
+            b"norm" | b"map_norm" => Self::Normal,
+            b"bump" | b"map_bump" | b"map_Bump" => Self::Bump,
+            _ => return None,
+        })
+    }
+
+    fn is_pbr(self) -> bool {
+        matches!(self, Self::Roughness | Self::Metallic | Self::Sheen)
+    }
+}
+
+/// A statement that names a picture: `map_Kd -s 2 2 wood.png`.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct MapStatement {
+    /// What the picture is for.
+    pub target: MapUse,
+    /// Its name as it stands in the file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// `-s`: what texture coordinates are multiplied with.
+    pub scale: [f32; 2],
+    /// `-o`: what is then added.
+    pub offset: [f32; 2],
+    /// `-clamp on`: nothing is seen beyond the edge but its last texel.
+    pub clamp: bool,
+    /// `-bm`: what the slopes of `bump`, or the x and y of `norm`, are multiplied with.
+    pub multiplier: f32,
+    /// `-imfchan r|g|b|m`: the channel of a map of numbers; without it its alpha if that is not 1 everywhere, else its
+    /// luminance.
+    pub channel: Option<usize>,
+}
+
+impl MapStatement {
+    /// Options, and then the name, which may have spaces.
+    fn new(target: MapUse, place: Place<'_>, mut rest: &[u8], say: &mut dyn FnMut(String)) -> Result<Self, String> {
+        let mut map = Self {
+            target,
+            file: String::new(),
+            line: place.line,
+            scale: [1.0; 2],
+            offset: [0.0; 2],
+            clamp: false,
+            multiplier: 1.0,
+            channel: None,
+        };
+        while rest.first() == Some(&b'-') {
+            let (option, mut words) = keyword(rest);
+            let mut word = || {
+                let (word, after) = keyword(words);
+                words = after;
+                word
+            };
+            match option {
+                b"-bm" => {
+                    let number = word();
+                    map.multiplier = place.number(number).map_err(|_| "has an option -bm without a number")?;
+                }
+                b"-clamp" => map.clamp = word() == b"on",
+                b"-imfchan" => {
+                    let channel = word();
+                    map.channel = [&b"r"[..], b"g", b"b", b"m"].iter().position(|name| *name == channel);
+                }
+                b"-s" | b"-o" | b"-t" => {
+                    // One number to three.
+                    let mut numbers = [None; 3];
+                    for number in &mut numbers {
+                        let (word, after) = keyword(words);
+                        let Ok(found) = place.number(word) else { break };
+                        (*number, words) = (Some(found), after);
+                    }
+                    let [Some(u), v, _] = numbers else {
+                        return Err(format!("has an option {} without a number", shown(option)));
+                    };
+                    match option {
+                        b"-s" => map.scale = [u, v.unwrap_or(1.0)],
+                        b"-o" => map.offset = [u, v.unwrap_or(0.0)],
+                        _ => say("has an option -t, which has no effect".to_owned()),
+                    }
+                }
+                b"-mm" => {
+                    word();
+                    word();
+                    say("has an option -mm, which has no effect".to_owned());
+                }
+                _ => {
+                    word();
+                    // What these ask for is a finer filter, or none.
+                    if !matches!(option, b"-blendu" | b"-blendv" | b"-boost" | b"-texres" | b"-cc" | b"-type") {
+                        say(format!("has an option {}, which has no effect", shown(option)));
+                    }
+                }
+            }
+            rest = words;
+        }
+        match rest {
+            b"" => Err("names no file".to_owned()),
+            rest => Ok(Self { file: text(rest), ..map }),
+        }
+    }
+}
+
 /// One material as it stands in the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MtlMaterial {
@@ -67,6 +259,10 @@ pub struct MtlMaterial {
     pub d: f32,
     /// The terms in use.
     pub illumination: Illumination,
+    /// What it is instead, if it has a statement of PBR.
+    pub pbr: Option<Pbr>,
+    /// The pictures, at most one for each use.
+    pub maps: Vec<MapStatement>,
 }
 
 impl Default for MtlMaterial {
@@ -81,6 +277,8 @@ impl Default for MtlMaterial {
             ns: 10.0,
             d: 1.0,
             illumination: Illumination::Diffuse,
+            pbr: None,
+            maps: Vec::new(),
         }
     }
 }
@@ -91,6 +289,9 @@ struct Draft {
     line: usize,
     illum: Option<u32>,
     exponent_given: bool,
+    /// The numbers of PBR, and whether there was one.
+    pbr: Pbr,
+    is_pbr: bool,
 }
 
 /// Reads the text of an MTL file. `file` is the name for messages.
@@ -148,7 +349,8 @@ impl Draft {
             return Err(place.error("newmtl without a name", "write `newmtl name`"));
         }
         let material = MtlMaterial { name: text(name), ..MtlMaterial::default() };
-        Ok(Self { material, line: place.line, illum: None, exponent_given: false })
+        let pbr = Pbr::default();
+        Ok(Self { material, line: place.line, illum: None, exponent_given: false, pbr, is_pbr: false })
     }
 }
 
@@ -163,6 +365,22 @@ struct Library {
 impl Library {
     fn statement(&mut self, draft: &mut Draft, place: Place<'_>, key: &[u8], rest: &[u8]) -> Result<(), Error> {
         let material = &mut draft.material;
+        if let Some(target) = MapUse::of(key) {
+            draft.is_pbr |= target.is_pbr();
+            let mut say = |what: String| {
+                let text = format!("material `{}`: the map `{} {}` {what}", material.name, shown(key), shown(rest));
+                self.warnings.push(place.line, text);
+            };
+            // Half of all archives have one that is wrong, or empty: no reason to show nothing.
+            match MapStatement::new(target, place, rest, &mut say) {
+                Ok(map) => {
+                    material.maps.retain(|known| known.target != target);
+                    material.maps.push(map);
+                }
+                Err(why) => say(format!("{why}, and has no effect")),
+            }
+            return Ok(());
+        }
         match key {
             b"Ka" => {
                 if let Some(ka) = self.colour(place, key, rest)? {
@@ -195,8 +413,26 @@ impl Library {
                 material.d = if key == b"d" { value } else { 1.0 - value };
             }
             b"illum" => draft.illum = Some(illum(place, rest)?),
-            b"Ni" | b"sharpness" => {
+            b"Ni" => draft.pbr.ior = one_number(place, key, rest)?,
+            b"sharpness" => {
                 one_number(place, key, rest)?;
+            }
+            b"Pr" | b"Pm" | b"Ps" | b"Pc" | b"Pcr" | b"aniso" | b"anisor" => {
+                let value = one_number(place, key, rest)?;
+                if !(0.0..=1.0).contains(&value) {
+                    return Err(place.error(format!("{} is {value}", shown(key)), "it lies between 0 and 1"));
+                }
+                let pbr = &mut draft.pbr;
+                match key {
+                    b"Pr" => pbr.roughness = Some(value),
+                    b"Pm" => pbr.metallic = value,
+                    b"Ps" => pbr.sheen = value,
+                    b"Pc" => pbr.clearcoat = value,
+                    b"Pcr" => pbr.clearcoat_roughness = value,
+                    b"aniso" => pbr.anisotropy = value,
+                    _ => pbr.anisotropy_rotation = value,
+                }
+                draft.is_pbr = true;
             }
             _ if is_map(key) => self.warnings.push(
                 place.line,
@@ -258,7 +494,15 @@ impl Library {
 
     /// The material is complete: its `illum` is decided and it joins the others.
     fn add(&mut self, draft: Draft) {
-        let Draft { mut material, line, illum, exponent_given } = draft;
+        let Draft { mut material, line, illum, exponent_given, mut pbr, is_pbr } = draft;
+        if is_pbr {
+            // The width of the microfacet lobe that looks most like that highlight.
+            let of_exponent = (2.0 / (material.ns + 2.0)).sqrt().sqrt();
+            let mapped = material.maps.iter().any(|map| map.target == MapUse::Roughness);
+            pbr.roughness = pbr.roughness.or((exponent_given && !mapped).then_some(of_exponent));
+            material.pbr = Some(pbr);
+            return self.keep(material, line);
+        }
         let shiny = material.ks.iter().any(|&part| part > 0.0);
         material.illumination = match illum {
             Some(0) => Illumination::Constant,
@@ -290,6 +534,10 @@ impl Library {
             let text = format!("material `{}` has Ks but no Ns: exponent 10 assumed", material.name);
             self.warnings.push(line, text);
         }
+        self.keep(material, line);
+    }
+
+    fn keep(&mut self, material: MtlMaterial, line: usize) {
         match self.by_name.get(&material.name) {
             Some(&at) => {
                 self.warnings.push(line, format!("material `{}` is given twice: the later one is used", material.name));
@@ -325,7 +573,7 @@ fn illum(place: Place<'_>, rest: &[u8]) -> Result<u32, Error> {
     }
 }
 
-/// Statements that name a picture.
+/// Statements that name a picture which is not used.
 fn is_map(key: &[u8]) -> bool {
-    key.starts_with(b"map_") || matches!(key, b"bump" | b"disp" | b"decal" | b"refl" | b"norm")
+    key.starts_with(b"map_") || matches!(key, b"disp" | b"decal" | b"refl")
 }

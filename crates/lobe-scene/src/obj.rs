@@ -11,15 +11,18 @@
 use crate::error::{Error, Warning, Warnings};
 use crate::files;
 use crate::lines::{Place, Statements, keyword, shown, text, words};
-use crate::mesh::{MAX_COORDINATE, Mesh, Triangle};
+use crate::maps::{MtlMaps, Pictures};
+use crate::mesh::{MAX_COORDINATE, Mesh, Triangle, Vertex};
 use crate::mtl::{self, MtlMaterial};
 use crate::normals::{self, MISSING, Smoothing};
+use crate::tangents;
 use crate::triangulate::{Cut, triangulate};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use std::collections::{HashMap, HashSet};
 use std::io;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The longest OBJ file that is read: 1 GiB.
 pub const MAX_BYTES: u64 = 1 << 30;
@@ -54,6 +57,8 @@ pub struct Model {
     pub mesh: Mesh,
     /// The materials in the order of their first use; [`Triangle::material`] counts them.
     pub materials: Vec<MtlMaterial>,
+    /// The pictures of each material.
+    pub maps: Vec<MtlMaps>,
     /// The named pieces that hold a triangle, in the order of the file.
     pub parts: Vec<Part>,
     /// What was skipped or assumed.
@@ -73,7 +78,8 @@ pub fn load(path: &Path, options: &Options) -> Result<Model, Error> {
 /// Reads the text of an OBJ file.
 ///
 /// `file` is the name for messages. `loader` gives the text of a material library by the name that stands after
-/// `mtllib`; a library that it cannot give is a warning, and its materials become the default grey.
+/// `mtllib`, and then the pictures by theirs, as they lie beside the library. A library that it cannot give is a warning, and
+/// its materials become the default grey; without a picture a material keeps its numbers.
 ///
 /// ```
 /// use lobe_scene::obj;
@@ -119,8 +125,9 @@ struct Reader<'a> {
     file: &'a str,
     loader: &'a mut dyn FnMut(&str) -> io::Result<Vec<u8>>,
     mesh: Mesh,
-    /// How many `vt` and `vn` there are. A normal of length 0 has no entry in the mesh.
-    texture_count: usize,
+    /// The `vt`, from the upper edge of a picture.
+    texture: Vec<Vec2>,
+    /// Where each `vn` is in the mesh, in which one of length 0 has no entry.
     normal_index: Vec<u32>,
     zero_normals: Tally,
     /// The smoothing group of each triangle.
@@ -132,7 +139,8 @@ struct Reader<'a> {
     material_names: Vec<(String, usize)>,
     material_by_name: HashMap<String, u32>,
     material: u32,
-    library: HashMap<String, MtlMaterial>,
+    /// By name, each with the file that it stands in, and the folder of that, as the loader knows it.
+    library: HashMap<String, (MtlMaterial, Arc<(String, PathBuf)>)>,
     loaded: HashSet<String>,
     unsupported: HashSet<Vec<u8>>,
     freeform: bool,
@@ -165,6 +173,7 @@ impl Tally {
 #[derive(Debug, Clone, Copy)]
 struct Corner {
     position: u32,
+    texture: u32,
     normal: u32,
     form: Form,
 }
@@ -199,7 +208,7 @@ impl<'a> Reader<'a> {
             file,
             loader,
             mesh: Mesh::default(),
-            texture_count: 0,
+            texture: Vec::new(),
             normal_index: Vec::new(),
             zero_normals: Tally::default(),
             groups: Vec::new(),
@@ -273,11 +282,11 @@ impl<'a> Reader<'a> {
     }
 
     fn texture(&mut self, place: Place<'_>, rest: &[u8]) -> Result<(), Error> {
-        let (_, count) = numbers::<3>(place, rest)?;
+        let ([u, v, _], count) = numbers::<3>(place, rest)?;
         if count == 0 || count > 3 {
             return Err(place.error(format!("vt has {count} numbers"), "write `vt u v`"));
         }
-        self.texture_count += 1;
+        self.texture.push(Vec2::new(u, 1.0 - v));
         Ok(())
     }
 
@@ -332,7 +341,7 @@ impl<'a> Reader<'a> {
             self.mesh.triangles.push(Triangle {
                 positions: [a.position, b.position, c.position],
                 normals: [a.normal, b.normal, c.normal],
-                vertices: [0; 3],
+                vertices: [a.texture, b.texture, c.texture],
                 material: self.material,
             });
             self.groups.push(self.group);
@@ -351,9 +360,7 @@ impl<'a> Reader<'a> {
             return Err(broken());
         }
         let texture = texture.filter(|piece| !piece.is_empty());
-        if let Some(texture) = texture {
-            index(place, word, texture, self.texture_count, "vt")?;
-        }
+        let texture = texture.map(|texture| index(place, word, texture, self.texture.len(), "vt")).transpose()?;
         let normal = normal.map(|normal| index(place, word, normal, self.normal_index.len(), "vn")).transpose()?;
         let form = match (texture, normal) {
             (None, None) => Form::Position,
@@ -362,7 +369,7 @@ impl<'a> Reader<'a> {
             (Some(_), Some(_)) => Form::Both,
         };
         let normal = normal.map_or(MISSING, |normal| self.normal_index[normal as usize]);
-        Ok(Corner { position, normal, form })
+        Ok(Corner { position, texture: texture.unwrap_or(MISSING), normal, form })
     }
 
     fn smoothing(&mut self, place: Place<'_>, rest: &[u8]) -> Result<(), Error> {
@@ -457,11 +464,13 @@ impl<'a> Reader<'a> {
         // Messages name the library as it lies beside the OBJ file.
         let file = Path::new(self.file).with_file_name(&name).display().to_string();
         let (materials, warnings) = mtl::parse(content, &file)?;
-        self.loaded.insert(name);
         self.warnings.append(warnings);
+        let folder = Path::new(&name.replace('\\', "/")).parent().unwrap_or(Path::new("")).to_owned();
+        let place = Arc::new((file, folder));
         for material in materials {
-            self.library.insert(material.name.clone(), material);
+            self.library.insert(material.name.clone(), (material, place.clone()));
         }
+        self.loaded.insert(name);
         Ok(())
     }
 
@@ -487,8 +496,9 @@ impl<'a> Reader<'a> {
         let smoothing =
             if self.groups_given { Smoothing::Groups } else { Smoothing::Crease { degrees: options.crease_degrees } };
         normals::fill(&mut self.mesh, &self.groups, smoothing);
-        let materials = self.resolve_materials();
-        Ok(Model { mesh: self.mesh, materials, parts: self.parts, warnings: self.warnings.finish() })
+        let (materials, maps) = self.resolve_materials();
+        self.vertices(&maps);
+        Ok(Model { mesh: self.mesh, materials, maps, parts: self.parts, warnings: self.warnings.finish() })
     }
 
     fn drop_triangles(&mut self, drop: fn(&mut Mesh) -> Vec<bool>, what: &str) {
@@ -517,8 +527,28 @@ impl<'a> Reader<'a> {
         self.parts.retain(|part| !part.triangles.is_empty());
     }
 
+    /// Texture coordinates for a mesh with pictures, and tangents if one of them has normals.
+    fn vertices(&mut self, maps: &[MtlMaps]) {
+        if maps.iter().all(MtlMaps::is_empty) {
+            self.mesh.triangles.iter_mut().for_each(|triangle| triangle.vertices = [0; 3]);
+            return;
+        }
+        let vertex = |uv: &Vec2| Vertex { uv: [*uv; 2], ..Vertex::default() };
+        // The last one is for corners without.
+        let none = self.texture.len() as u32;
+        self.mesh.vertices = self.texture.iter().map(vertex).chain([Vertex::default()]).collect();
+        for index in self.mesh.triangles.iter_mut().flat_map(|triangle| &mut triangle.vertices) {
+            *index = (*index).min(none);
+        }
+        if maps.iter().any(|maps| maps.normal.is_some()) {
+            tangents::fill(&mut self.mesh, 0);
+        }
+    }
+
     /// Gives every name that a triangle uses its material, in the order of first use.
-    fn resolve_materials(&mut self) -> Vec<MtlMaterial> {
+    fn resolve_materials(&mut self) -> (Vec<MtlMaterial>, Vec<MtlMaps>) {
+        let mut pictures = Pictures::default();
+        let mut maps = Vec::new();
         const UNUSED: u32 = u32::MAX;
         let mut index_of = vec![UNUSED; self.material_names.len()];
         let mut materials = Vec::new();
@@ -527,17 +557,27 @@ impl<'a> Reader<'a> {
             if index_of[name_index] == UNUSED {
                 index_of[name_index] = materials.len() as u32;
                 let (name, line) = &self.material_names[name_index];
-                materials.push(self.library.remove(name).unwrap_or_else(|| {
-                    if name_index == 0 {
-                        return MtlMaterial::default();
+                let (material, of) = match self.library.remove(name) {
+                    Some((material, place)) => {
+                        let (file, folder) = &*place;
+                        let mut said = Warnings::new(file);
+                        let mut say = |line, text| said.push(line, text);
+                        let of = pictures.of(&material, folder, self.loader, &mut say);
+                        self.warnings.append(said.finish());
+                        (material, of)
                     }
-                    self.warnings.push(*line, format!("no library has the material `{name}`: grey"));
-                    MtlMaterial { name: name.clone(), ..MtlMaterial::default() }
-                }));
+                    None if name_index == 0 => (MtlMaterial::default(), MtlMaps::default()),
+                    None => {
+                        self.warnings.push(*line, format!("no library has the material `{name}`: grey"));
+                        (MtlMaterial { name: name.clone(), ..MtlMaterial::default() }, MtlMaps::default())
+                    }
+                };
+                materials.push(material);
+                maps.push(of);
             }
             triangle.material = index_of[name_index];
         }
-        materials
+        (materials, maps)
     }
 }
 

@@ -1,11 +1,12 @@
 //! Scenes made by a formula, for tests and measurements.
 
 use crate::material::{Material, ShadingModel};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Vertex};
 use crate::mtl::{Illumination, MtlMaterial};
 use crate::scene::{Light, Scene, View};
+use crate::tangents;
 use crate::{Camera, Error};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use lobe::Rgb;
 
 /// The points and faces of a sphere of `2 · around · (around / 2 − 1)` triangles, counter-clockwise from outside.
@@ -176,9 +177,12 @@ fn show_lights() -> Vec<Light> {
 ///
 /// # Errors
 /// None for any material.
-pub fn swatch(material: &lobe_models::Material) -> Result<Scene, Error> {
+pub fn swatch(material: Material) -> Result<Scene, Error> {
     let (points, faces) = sphere(Vec3::ZERO, 1.0, 64);
-    let ball = Mesh::smooth(points, &faces, 0, 60.0)?;
+    let mut ball = Mesh::smooth(points, &faces, 0, 60.0)?;
+    if material.is_textured() {
+        wrap(&mut ball);
+    }
     let lamp = |to_light: [f32; 3], irradiance: f32| Light::Directional {
         to_light: Vec3::from(to_light).normalize(),
         irradiance: Rgb::splat(irradiance),
@@ -196,6 +200,26 @@ pub fn swatch(material: &lobe_models::Material) -> Result<Scene, Error> {
         background: crate::Background::Solid(Rgb::splat(0.03)),
         ..View::default()
     };
-    let shown = Material::from_lobes(material.name.as_str(), material);
-    Ok(Scene { meshes: vec![ball], materials: vec![shown], views: vec![view], ..Scene::default() })
+    Ok(Scene { meshes: vec![ball], materials: vec![material], views: vec![view], ..Scene::default() })
+}
+
+/// Texture coordinates on a sphere around the origin, each picture once from pole to pole and twice around, and tangents.
+fn wrap(ball: &mut Mesh) {
+    let mut vertices = Vec::new();
+    for triangle in &mut ball.triangles {
+        let corners = triangle.positions.map(|at| ball.positions.get(at as usize).copied().unwrap_or_default());
+        let middle = corners.iter().sum::<Vec3>();
+        let turn = |point: Vec3| point.x.atan2(point.z) / std::f32::consts::PI;
+        for (corner, index) in corners.into_iter().zip(&mut triangle.vertices) {
+            // A pole has no meridian, and at the seam one corner would be a whole turn away.
+            let at_pole = corner.x == 0.0 && corner.z == 0.0;
+            let mut u = if at_pole { turn(middle) } else { turn(corner) };
+            u -= 2.0 * ((u - turn(middle)) / 2.0).round();
+            let v = corner.y.clamp(-1.0, 1.0).acos() / std::f32::consts::PI;
+            *index = vertices.len() as u32;
+            vertices.push(Vertex { uv: [Vec2::new(u, v); 2], ..Vertex::default() });
+        }
+    }
+    ball.vertices = vertices;
+    tangents::fill(ball, 0);
 }

@@ -8,13 +8,15 @@ use crate::batch::LitPoints;
 use crate::bvh::{Bvh, Hit};
 use crate::camera::FARTHEST;
 use crate::error::Error;
-use crate::gltf_material::{GltfMaterial, below_coat};
+use crate::gltf_material::GltfMaterial;
 use crate::image::Image;
-use crate::material::{Material, Surface};
+use crate::material::{MappedAt, Material, Surface};
 use crate::mesh::{Vertex, area_vector};
 use crate::scene::{Background, Cone, Light, Scene, View};
 use glam::{Vec2, Vec3};
-use lobe::{AmbientLight, DirectionalLight, Frame, Incident, PointLight, Rgb, interpolate_normal};
+use lobe::{
+    Alpha, AmbientLight, Black, Clearcoat, DirectionalLight, Frame, Incident, PointLight, Rgb, interpolate_normal,
+};
 use lobe_models::AnyPrecision;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -210,9 +212,18 @@ fn sample_points(count: u32) -> Vec<[f32; 2]> {
 /// The lights of a view, sorted by kind.
 struct Lights {
     ambient: AmbientLight,
-    points: Vec<(PointLight, f32)>,
-    punctual: Vec<(PointLight, f32, Option<Cone>)>,
+    points: Vec<Lamp>,
     directional: Vec<DirectionalLight>,
+}
+
+/// A light at a point, of either kind.
+struct Lamp {
+    light: PointLight,
+    /// 0 for a point.
+    radius: f32,
+    /// Infinite for no end.
+    range: f32,
+    cone: Option<Cone>,
 }
 
 impl Lights {
@@ -223,12 +234,8 @@ impl Lights {
                 Err(Error::setting("the colour of a light", format!("{colour:?}"), "it is finite and not negative"))
             }
         };
-        let mut sorted = Self {
-            ambient: AmbientLight::new(Rgb::splat(0.0)),
-            points: Vec::new(),
-            punctual: Vec::new(),
-            directional: Vec::new(),
-        };
+        let mut sorted =
+            Self { ambient: AmbientLight::new(Rgb::splat(0.0)), points: Vec::new(), directional: Vec::new() };
         let place = |position: Vec3| match position.abs().cmple(Vec3::splat(10.0 * FARTHEST)).all() {
             true => Ok(position.into()),
             // The default light stands a few times as far out as the camera.
@@ -243,13 +250,15 @@ impl Lights {
                     if !(radius >= 0.0 && radius.is_finite()) {
                         return Err(Error::setting("the radius of a light", radius, "it is finite and not negative"));
                     }
-                    sorted.points.push((PointLight::new(place(position)?, colour(intensity)?), radius));
+                    let light = PointLight::new(place(position)?, colour(intensity)?);
+                    sorted.points.push(Lamp { light, radius, range: f32::INFINITY, cone: None });
                 }
                 Light::Punctual { position, intensity, range, cone } => {
                     if range.is_nan() || range <= 0.0 {
                         return Err(Error::setting("the range of a light", range, "it is positive, or infinite"));
                     }
-                    sorted.punctual.push((PointLight::new(place(position)?, colour(intensity)?), range, cone));
+                    let light = PointLight::new(place(position)?, colour(intensity)?);
+                    sorted.points.push(Lamp { light, radius: 0.0, range, cone });
                 }
                 Light::Directional { to_light, irradiance } => {
                     let to_light = to_light.as_dvec3().try_normalize().ok_or_else(|| {
@@ -385,6 +394,8 @@ impl Textured {
         // A pixel covers width × width/cos on the surface: the square of the same area.
         let [p, q, r] = point.triangle.corners;
         let area = (q - p).cross(r - p).length();
+        // Seen from its edge that would be infinite, and the texture as if near (test
+        // `a_texture_seen_from_its_edge_is_filtered`).
         let seen = width * width / point.face.dot(point.v).max(LEAST_COSINE);
         let footprint = [0, 1].map(|set| {
             let (u, v) = (b.uv[set] - a.uv[set], c.uv[set] - a.uv[set]);
@@ -400,12 +411,13 @@ impl Textured {
         }
     }
 
-    /// The frame of a lobe whose normal and direction are given in the tangent frame of the point.
+    /// The frame of a lobe whose normal is given in the tangent frame of the point, and the direction that it is to be turned
+    /// to, if the lobe is not the same all around.
     ///
     /// A mapped normal that faces away from the viewer is bent as an interpolated one is: else bumps would have black
     /// outlines.
-    fn frame(&self, point: &Point<'_>, normal: Vec3, direction: Vec2) -> Frame {
-        if normal == Vec3::Z && direction == Vec2::X && self.tangent == Vec3::ZERO {
+    fn frame(&self, point: &Point<'_>, normal: Vec3, direction: Option<Vec2>) -> Frame {
+        if normal == Vec3::Z && direction.is_none() {
             return point.frame;
         }
         // From behind all three axes point the other way.
@@ -415,7 +427,10 @@ impl Textured {
         let b = Vec3::from(around.bitangent) * (self.hand * side);
         let mapped = (t * normal.x + b * normal.y + n * normal.z).normalize_or(n);
         let mapped = bent(mapped, point.v, point.face);
-        Frame::from_normal_tangent(mapped.into(), (t * direction.x + b * direction.y).into())
+        match direction {
+            Some(direction) => Frame::from_normal_tangent(mapped.into(), (t * direction.x + b * direction.y).into()),
+            None => Frame::from_normal(mapped.into()),
+        }
     }
 }
 
@@ -469,7 +484,7 @@ const MOST_SURFACES: u32 = 256;
 struct Row {
     /// Of each pixel.
     sums: Vec<Rgb>,
-    /// Of each material, and then of the coat of each.
+    /// Of each material, and then of the second lobe of each: the coat, or the highlight of one with pictures.
     queues: Vec<Queue>,
     /// What a batch has given, cleared after each.
     reflected: [Vec<f32>; 3],
@@ -523,15 +538,16 @@ impl Pass<'_> {
         };
         let triangle = &renderer.triangles[hit.triangle as usize];
         let material = &self.materials[triangle.material as usize];
-        let mut point = Point::new(triangle, &hit, ray.direction);
+        let point = Point::new(triangle, &hit, ray.direction);
         let width = ray.width + self.spread * hit.t;
-        let textured = material.gltf().map(|gltf| (gltf, Textured::new(renderer.scene, &point, width)));
-        let mut solid = material.dissolve;
-        if let Some((gltf, at)) = &textured {
-            solid *= gltf.opacity(at.uv, at.footprint, at.color[3]);
-            if !gltf.factors.double_sided && triangle.face.dot(ray.direction) > 0.0 {
-                solid = 0.0;
-            }
+        let textured = material.is_textured().then(|| Textured::new(renderer.scene, &point, width));
+        let mut solid = match &textured {
+            Some(at) => material.opacity(at.uv, at.footprint, at.color[3]),
+            None => material.dissolve,
+        };
+        let one_sided = material.gltf().is_some_and(|gltf| !gltf.factors.double_sided);
+        if one_sided && triangle.face.dot(ray.direction) > 0.0 {
+            solid = 0.0;
         }
         let mut weight = ray.weight;
         let through = if solid <= 0.0 { ray.skips } else { ray.depth };
@@ -551,27 +567,37 @@ impl Pass<'_> {
         if solid <= 0.0 {
             return;
         }
-        if let Some((gltf, at)) = textured {
-            self.follow_gltf(gltf, &at, &mut point, pixel, weight, jitter, row);
+        if let (Some(gltf), Some(at)) = (material.gltf(), &textured) {
+            self.follow_gltf(gltf, at, &point, pixel, weight, jitter, row);
             return;
         }
-        let own = material.emission + material.ambient * self.lights.ambient.radiance;
-        row.sums[pixel] = row.sums[pixel] + weight * own;
+        let mut found = MappedAt::default();
+        let mut frame = point.frame;
+        if let (Some(mapped), Some(at)) = (material.mapped(), &textured) {
+            found = mapped.at(at.uv, at.footprint);
+            frame = at.frame(&point, found.normal, None);
+            if mapped.highlight.is_some() {
+                let queue = &mut row.queues[self.materials.len() + triangle.material as usize];
+                self.queue_lights(&point, &frame, pixel, weight * found.specular, jitter, &[], queue);
+            }
+        }
+        let ambient = material.ambient * found.ambient * self.lights.ambient.radiance;
+        row.sums[pixel] = row.sums[pixel] + weight * (material.emission * found.emission + ambient);
         if !matches!(material.surface, Surface::Black) {
             let queue = &mut row.queues[triangle.material as usize];
-            self.queue_lights(&point, &point.frame, pixel, weight, jitter, &[], queue);
+            self.queue_lights(&point, &frame, pixel, weight * found.diffuse, jitter, &[], queue);
         }
         if is_black(material.mirror.ks()) || ray.depth == 0 {
             return;
         }
-        let seen = material.mirror.reflect(point.frame.to_local(point.v.into()));
-        let mut direction: Vec3 = point.frame.to_world(seen.l).into();
+        let seen = material.mirror.reflect(frame.to_local(point.v.into()));
+        let mut direction: Vec3 = frame.to_world(seen.l).into();
         let below = direction.dot(point.face).min(0.0);
         direction = (direction - point.face * (2.0 * below)).normalize_or(point.face);
         let mirrored = Ray {
             origin: point.outside,
             direction,
-            weight: weight * seen.weight,
+            weight: weight * seen.weight * found.specular,
             depth: ray.depth - 1,
             skips: ray.skips,
             width,
@@ -585,7 +611,7 @@ impl Pass<'_> {
         &self,
         gltf: &GltfMaterial,
         at: &Textured,
-        point: &mut Point<'_>,
+        point: &Point<'_>,
         pixel: usize,
         weight: Rgb,
         jitter: Jitter,
@@ -597,24 +623,44 @@ impl Pass<'_> {
             row.sums[pixel] = row.sums[pixel] + weight * found.base_color;
             return;
         }
-        let coat_frame = at.frame(point, found.coat_normal, Vec2::X);
-        point.frame = at.frame(point, found.normal, found.direction);
-        let mut weight_of_base = weight;
-        if gltf.has_coat() {
-            let cosine = Vec3::from(coat_frame.normal).dot(point.v);
-            weight_of_base = weight * below_coat(found.coat, cosine);
-        }
-        let own = found.emission * if gltf.has_coat() { below_coat(found.coat, point.v.dot(point.face)) } else { 1.0 };
-        let ambient = gltf.ambient(&found) * self.lights.ambient.radiance;
-        row.sums[pixel] = row.sums[pixel] + weight * (own + ambient);
-        let (parameters, count) = gltf.parameters(&found);
         let material = point.triangle.material as usize;
-        let parameters = parameters.get(..count).unwrap_or(&[]);
-        self.queue_lights(point, &point.frame, pixel, weight_of_base, jitter, parameters, &mut row.queues[material]);
-        if gltf.has_coat() && found.coat > 0.0 {
+        let mut below = weight;
+        let frame = at.frame(point, found.normal, gltf.is_anisotropic().then_some(found.direction));
+        let seen = |frame: &Frame| Vec3::from(frame.normal).dot(point.v);
+        let mut coat_cos = 1.0;
+        if gltf.has_coat() {
+            let frame = at.frame(point, found.coat_normal, None);
+            let v = frame.to_local(point.v.into());
+            coat_cos = seen(&frame);
+            below = weight * Clearcoat::new(Black, found.coat, Alpha(found.coat_alpha)).transmitted(v);
             let queue = &mut row.queues[self.materials.len() + material];
-            self.queue_lights(point, &coat_frame, pixel, weight, jitter, &[found.coat, found.coat_alpha], queue);
+            self.queue_lights(point, &frame, pixel, weight, jitter, &[found.coat, found.coat_alpha], queue);
         }
+        if !is_black(self.lights.ambient.radiance) {
+            let (diffuse, specular) = gltf.ambient(&found, seen(&frame), coat_cos);
+            let ambient = diffuse * self.lights.ambient.radiance + specular * self.mirrored(point, &frame);
+            row.sums[pixel] = row.sums[pixel] + weight * ambient;
+        }
+        row.sums[pixel] = row.sums[pixel] + below * found.emission;
+        let (parameters, count) = gltf.parameters(&found);
+        let parameters = parameters.get(..count).unwrap_or(&[]);
+        self.queue_lights(point, &frame, pixel, below, jitter, parameters, &mut row.queues[material]);
+    }
+
+    /// The ambient light from the mirror direction of the viewer: as much as there is on the mean, spread like the
+    /// background; the mean where something stands before that.
+    fn mirrored(&self, point: &Point<'_>, frame: &Frame) -> Rgb {
+        let ambient = self.lights.ambient.radiance;
+        let mean = self.background.mean();
+        let normal = Vec3::from(frame.normal);
+        let direction = (normal * (2.0 * normal.dot(point.v)) - point.v).normalize_or(normal);
+        let is_even = matches!(self.background, Background::Solid(_)) || direction.dot(point.face) <= 0.0;
+        if is_even || !self.renderer.bvh.is_free(point.outside.into(), direction.into(), f32::INFINITY) {
+            return ambient;
+        }
+        let there = self.background.radiance(direction);
+        let part = |ambient: f32, there: f32, mean: f32| if mean > 0.0 { ambient * (there / mean) } else { ambient };
+        Rgb::new(part(ambient.r, there.r, mean.r), part(ambient.g, there.g, mean.g), part(ambient.b, there.b, mean.b))
     }
 
     #[allow(clippy::too_many_arguments, reason = "a point, a lobe's frame and numbers, and where they go")]
@@ -630,25 +676,22 @@ impl Pass<'_> {
     ) {
         let v = frame.to_local(point.v.into());
         let start = point.shadow_start();
-        let towards = |light: &PointLight| {
-            let way = Vec3::from(light.position) - start;
-            Way { start, to_light: way.normalize_or_zero(), distance: way.length(), pixel, weight }
-        };
-        for (light, radius) in &self.lights.points {
-            let mut light = *light;
-            if *radius > 0.0 {
-                light.position = (Vec3::from(light.position) + jitter.in_ball() * *radius).into();
+        for lamp in &self.lights.points {
+            let mut light = lamp.light;
+            if lamp.radius > 0.0 {
+                light.position = (Vec3::from(light.position) + jitter.in_ball() * lamp.radius).into();
             }
-            queue.push(frame, light.at(point.position.into()), v, parameters, towards(&light));
-        }
-        for (light, range, cone) in &self.lights.punctual {
             let mut incident = light.at(point.position.into());
-            let within = (1.0 - (incident.distance / range).powi(4)).max(0.0);
-            let part = cone.map_or(1.0, |cone| cone.part(-Vec3::from(incident.l)));
-            if within * part > 0.0 {
-                incident.irradiance = incident.irradiance * (within * part);
-                queue.push(frame, incident, v, parameters, towards(light));
+            // Exactly 1 for a light without an end and without a cone.
+            let within = (1.0 - (incident.distance / lamp.range).powi(4)).max(0.0);
+            let part = within * lamp.cone.map_or(1.0, |cone| cone.part(-Vec3::from(incident.l)));
+            if part <= 0.0 {
+                continue;
             }
+            incident.irradiance = incident.irradiance * part;
+            let way = Vec3::from(light.position) - start;
+            let way = Way { start, to_light: way.normalize_or_zero(), distance: way.length(), pixel, weight };
+            queue.push(frame, incident, v, parameters, way);
         }
         for light in &self.lights.directional {
             let way = Way { start, to_light: light.to_light.into(), distance: f32::INFINITY, pixel, weight };
@@ -659,9 +702,15 @@ impl Pass<'_> {
     /// Shades what is in the queues, and empties them.
     fn shade(&self, row: &mut Row) {
         for (index, queue) in row.queues.iter_mut().enumerate() {
-            match self.materials.get(index) {
-                Some(material) => material.surface.shade(&queue.lit, self.precision, &mut row.reflected),
-                None => queue.lit.shade_coat(self.precision, &mut row.reflected),
+            let (lit, out) = (&queue.lit, &mut row.reflected);
+            let below = index.checked_sub(self.materials.len()).and_then(|index| self.materials.get(index));
+            match (self.materials.get(index), below.and_then(Material::mapped)) {
+                (Some(material), _) => material.surface.shade(lit, self.precision, out),
+                (None, None) => lit.shade_coat(self.precision, out),
+                (None, Some(mapped)) => match &mapped.highlight {
+                    Some(highlight) => highlight.shade(lit, self.precision, out),
+                    None => Surface::Black.shade(lit, self.precision, out),
+                },
             }
             let [r, g, b] = &row.reflected;
             for (way, ((&r, &g), &b)) in queue.ways.iter().zip(r.iter().zip(g).zip(b)) {
@@ -690,11 +739,13 @@ impl Pass<'_> {
             let triangle = &renderer.triangles[hit.triangle as usize];
             let material = &self.materials[triangle.material as usize];
             let point = Point::new(triangle, &hit, to_light);
-            let mut solid = material.dissolve;
-            if let Some(gltf) = material.gltf().filter(|gltf| gltf.is_open()) {
-                let at = Textured::new(renderer.scene, &point, 0.0);
-                solid *= gltf.opacity(at.uv, at.footprint, at.color[3]);
-            }
+            let solid = match material.is_open() && material.is_textured() {
+                true => {
+                    let at = Textured::new(renderer.scene, &point, 0.0);
+                    material.opacity(at.uv, at.footprint, at.color[3])
+                }
+                false => material.dissolve,
+            };
             visible *= 1.0 - solid;
             if visible <= 0.0 {
                 return 0.0;

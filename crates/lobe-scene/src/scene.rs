@@ -47,7 +47,9 @@ impl Scene {
     pub fn from_model(model: Model, shading: ShadingModel) -> Self {
         Self {
             meshes: vec![model.mesh],
-            materials: model.materials.iter().map(|mtl| Material::from_mtl(mtl, shading)).collect(),
+            materials: (model.materials.iter().zip(&model.maps))
+                .map(|(mtl, maps)| Material::from_mtl_with(mtl, maps, shading))
+                .collect(),
             parts: model.parts,
             views: vec![View::default()],
             warnings: model.warnings,

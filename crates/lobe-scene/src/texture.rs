@@ -1,7 +1,7 @@
 //! Pictures on surfaces, filtered to the size that a pixel sees.
 
 use crate::Error;
-use glam::{Mat2, Vec2};
+use glam::{Mat2, Vec2, Vec3};
 use std::fmt;
 use std::sync::Arc;
 
@@ -41,14 +41,14 @@ pub struct Sampler {
 /// A picture of four channels of 8 bits, with itself at a half, a quarter … of the size.
 ///
 /// The smaller ones are means over light, not over codes: sRGB is decoded, averaged and encoded again.
-#[derive(Clone)]
+#[derive(Clone, PartialEq)]
 pub struct Texture {
     levels: Vec<Level>,
     encoding: Encoding,
     sampler: Sampler,
 }
 
-#[derive(Clone)]
+#[derive(Clone, PartialEq)]
 struct Level {
     width: u32,
     height: u32,
@@ -230,19 +230,14 @@ fn encode(colour: [f32; 4], encoding: Encoding) -> [u8; 4] {
     [channel(r), channel(g), channel(b), code(a)]
 }
 
-/// The inverse of [`srgb`](crate::image::srgb) for each code of 8 bits.
+/// [`linear`](crate::image::linear) for each code of 8 bits.
 fn srgb_table() -> &'static [f32; 256] {
     static TABLE: std::sync::OnceLock<[f32; 256]> = std::sync::OnceLock::new();
-    TABLE.get_or_init(|| {
-        std::array::from_fn(|code| {
-            let x = code as f64 / 255.0;
-            (if x <= 0.04045 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }) as f32
-        })
-    })
+    TABLE.get_or_init(|| std::array::from_fn(|code| crate::image::linear(code as f32 / 255.0)))
 }
 
 /// A texture as a material uses it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Map {
     /// The texture.
     pub texture: Arc<Texture>,
@@ -261,6 +256,13 @@ impl Map {
         let scale = (matrix.determinant().abs() * width as f32 * height as f32).sqrt();
         let set = self.set.min(1);
         self.texture.sample(matrix * uv[set] + offset, footprint[set] * scale)
+    }
+
+    /// The unit normal of a normal map in the tangent frame, its x and y times `scale`; +z for a texel of no direction.
+    #[must_use]
+    pub fn normal(&self, scale: f32, uv: [Vec2; 2], footprint: [f32; 2]) -> Vec3 {
+        let [x, y, z, _] = self.at(uv, footprint).map(|x| 2.0 * x - 1.0);
+        Vec3::new(x * scale, y * scale, z).try_normalize().unwrap_or(Vec3::Z)
     }
 }
 

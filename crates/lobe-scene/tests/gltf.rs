@@ -280,7 +280,7 @@ fn cameras_and_lights_become_views() {
         let settings = Settings { width: 60, height: 60, ..Settings::default() };
         let image = Renderer::new(&scene).expect("a renderer").render(view, &settings, None).expect("a picture");
         let lit = image.pixels().iter().filter(|pixel| pixel[0] > 0.06).count();
-        // Half of a square of 1/3 of the picture's height: 200 pixels.
+        // Half of a square of 1/3 of the picture's height: 200 pixels, of which some 50 are cut by an edge.
         assert!(view.name == "lens" || lit.abs_diff(200) < 25, "{}: {lit}", view.name);
         assert!(lit > 50, "{}: {lit}", view.name);
     }
@@ -604,4 +604,68 @@ fn the_scene_of_materials_is_read_whole() {
     let settings = Settings { width: 64, height: 36, ..Settings::default() };
     let image = Renderer::new(&scene).expect("a renderer").render(&scene.views[0], &settings, None).expect("a picture");
     assert!(image.pixels().iter().flatten().all(|x| x.is_finite() && *x >= 0.0));
+}
+
+/// From its edge the pixel's square on the surface is larger than any texture.
+#[test]
+fn a_texture_seen_from_its_edge_is_filtered() {
+    let texels: Vec<u8> = (0..64 * 64)
+        .flat_map(|at| [if (at + at / 64) % 2 == 0 { 255 } else { 0 }; 3].into_iter().chain([255]))
+        .collect();
+    let unlit = json!({
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
+        "doubleSided": true,
+        "extensions": {"KHR_materials_unlit": {}},
+    });
+    let mut file = square(unlit, &[(64, 64, texels)]);
+    file.json["extensionsUsed"] = json!(["KHR_materials_unlit"]);
+    // 0.1 degrees off the edge: every row of the picture sees many texels.
+    let (s, c) = ((90.0_f32 - 0.1).to_radians() / 2.0).sin_cos();
+    file.json["nodes"][0]["rotation"] = json!([s, 0, 0, c]);
+    let seen: Vec<f32> = picture(&file, 1001).into_iter().map(|p| p[0]).filter(|x| (*x - 0.05).abs() > 1e-6).collect();
+    assert!(seen.len() > 900, "{}", seen.len());
+    assert!(seen.iter().all(|x| (x - 0.5).abs() < 0.02), "{seen:?}");
+}
+
+/// Sixteen meshes of a million zeros each, with one triangle: a thousand bytes that must not become gigabytes.
+#[test]
+fn points_that_no_triangle_has_are_dropped() {
+    let mut file = File::triangle();
+    let places = file.view(&[0, 1, 2]);
+    let values = file.json["accessors"][0]["bufferView"].clone();
+    file.json["accessors"][0] = json!({
+        "componentType": F32, "count": 1 << 20, "type": "VEC3",
+        "sparse": {"count": 3, "indices": {"bufferView": places, "componentType": U8}, "values": {"bufferView": values}},
+    });
+    let scene = file.read().expect("a scene");
+    assert_eq!(corners(&scene), [[Vec3::ZERO, Vec3::X, Vec3::Y]]);
+    assert_eq!(scene.meshes[0].positions.len(), 3);
+    file.json["nodes"] = json!((0..16).map(|_| json!({"mesh": 0})).collect::<Vec<_>>());
+    file.json["scenes"] = json!([{"nodes": (0..16).collect::<Vec<_>>()}]);
+    let text = file.read().expect_err("15 million points are enough").to_string();
+    assert!(text.contains("15728640 points, copies counted"), "{text}");
+}
+
+/// What a coat lets through of the base it lets through of the light that the base sends out.
+#[test]
+fn a_coat_is_above_the_emission_too() {
+    let material = |coat: f64| {
+        json!({
+            "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0},
+            "emissiveFactor": [1, 0.5, 0.25],
+            "extensions": {
+                "KHR_materials_clearcoat": {"clearcoatFactor": coat, "clearcoatRoughnessFactor": 1},
+                "KHR_materials_specular": {"specularFactor": 0},
+            },
+        })
+    };
+    let used = ["KHR_materials_clearcoat", "KHR_materials_specular"];
+    let lights = |coat: f64| lit(material(coat), &[], &used);
+    let (with, without) = (lights(1.0), lights(0.0));
+    let coat = expected(
+        r#"{"model": "gltf-clearcoat", "base-color": 0, "specular": 0, "metallic": 0, "clearcoat-roughness": 1}"#,
+    );
+    for ((with, without), coat) in with.into_iter().zip(without).zip(coat) {
+        assert!((with - coat - 0.96 * without).abs() < 1e-5, "{with} {without} {coat}");
+    }
 }

@@ -99,6 +99,8 @@ fn each_error_in_a_library_names_its_line() {
         ("illum -1", "2: illum is `-1`"),
         ("illum", "2: illum is ``"),
         ("newmtl", "2: newmtl without a name"),
+        ("Pr 1.5", "2: Pr is 1.5; it lies between 0 and 1"),
+        ("aniso x", "2: `x` is not a number"),
     ];
     for (line, expected) in cases {
         let message = parse_with(&format!("mtllib a.mtl\n{POINTS}f 1 2 3"), &format!("newmtl m\n{line}\n"))
@@ -118,15 +120,15 @@ fn what_is_skipped_is_said_once() -> Result<(), Error> {
              l 1 2\nl 2 3\ncstype bezier\ncurv 0 1 1 2\nlod 3\nlod 4\nusemtl m\nf 1//1 2//1 3//2\nusemtl ghost\n\
              f 1 2 3\nusemtl m\nusemtl ghost\nf 1 1 2\nf 1 3 2 4\nf 1 2 2 3\n"
         ),
-        "newmtl m\nKs 0.5\nKd 2 0 0\nmap_Kd -s 1 1 a.png\nbump b.png\nPr 0.5\nPr 0.6\nillum 7\nd -halo 0.5\nNi 1.5\n\
+        "newmtl m\nKs 0.5\nKd 2 0 0\nmap_Kd -s 1 1 a.png\nrefl b.png\nTf 1 1 1\nTf 1 1 1\nillum 7\nd -halo 0.5\nNi 1.5\n\
          newmtl m2\nKa spectral a.rfl\nillum 10\nnewmtl m2\n",
     )?;
     let expected = [
         ":1: the material library `missing.mtl` was sought at dir/missing.mtl: entity not found; its materials are grey",
         "dir/a.mtl:3: Kd is above 1: more light leaves than arrives",
-        "dir/a.mtl:4: material `m`: the map `map_Kd -s 1 1 a.png` is not supported and has no effect",
-        "dir/a.mtl:5: material `m`: the map `bump b.png` is not supported and has no effect",
-        "dir/a.mtl:6: `Pr` is not supported and has no effect",
+        "dir/a.mtl:4: material `m`: the picture `a.png` cannot be read: entity not found; it is shaded without this picture",
+        "dir/a.mtl:5: material `m`: the map `refl b.png` is not supported and has no effect",
+        "dir/a.mtl:6: `Tf` is not supported and has no effect",
         "dir/a.mtl:9: `d -halo` is not supported: the same dissolve from all sides",
         "dir/a.mtl:1: material `m`: illum 7 asks for glass, which is not supported: shaded as illum 3 with its dissolve",
         "dir/a.mtl:1: material `m` has Ks but no Ns: exponent 10 assumed",

@@ -3,6 +3,7 @@
 mod chart;
 mod compare;
 mod curve;
+mod image;
 mod pareto;
 mod polar;
 mod surface;
@@ -11,6 +12,7 @@ mod terms;
 
 pub(crate) use compare::{compare, compare_panel};
 pub(crate) use curve::{curve, slices};
+pub(crate) use image::image;
 pub(crate) use pareto::{Dot, front, pareto, pareto_panel};
 pub(crate) use polar::{distribution, polar};
 pub(crate) use surface::surface;
@@ -118,7 +120,7 @@ pub(crate) fn run(args: &PlotArgs, quiet: bool, json: bool) -> Result<(), Failur
         )));
     }
     if args.log && matches!(args.kind, Kind::Compare | Kind::Surface | Kind::Terms) {
-        let right = "leave it out, or take --kind polar, slices or distribution";
+        let right = "leave it out, or take --kind polar, slices, image or distribution";
         return Err(Failure::Usage(format!("--log is not for --kind {}; {right}", kind_name(args.kind))));
     }
     let specs = specs(args)?;
@@ -136,8 +138,11 @@ pub(crate) fn run(args: &PlotArgs, quiet: bool, json: bool) -> Result<(), Failur
         (Kind::Distribution, ..) => distribution(&cuts(&specs)?, args.log),
         (Kind::Surface, Some(first), _) => surface(first, setting),
         (Kind::Slices, Some(first), _) => slices(first, setting),
+        (Kind::Image, Some(first), _) => image(first, setting)?,
         (Kind::Terms, _, Some(first)) => terms(&first.name, &Facets::of(first)?),
-        (Kind::Compare | Kind::Surface | Kind::Slices | Kind::Terms, ..) => compare(args.q, args.incidence),
+        (Kind::Compare | Kind::Surface | Kind::Slices | Kind::Image | Kind::Terms, ..) => {
+            compare(args.q, args.incidence)
+        }
     };
     output::write_file(&args.output, svg.file().as_bytes())?;
     let to_stdout = args.output.as_os_str() == "-";
@@ -157,7 +162,7 @@ fn specs(args: &PlotArgs) -> Result<Vec<Material>, Failure> {
         Kind::Polar | Kind::Curve => (&["mirror-lobe", "half-vector-lobe"], svg::SERIES),
         Kind::Distribution => (&["ggx-plastic", "ggx-gold"], svg::SERIES),
         Kind::Surface => (&["glossy"], 1),
-        Kind::Slices => (&["ggx-plastic"], 1),
+        Kind::Slices | Kind::Image => (&["ggx-plastic"], 1),
         Kind::Terms => (&["ggx-gold"], 1),
     };
     let given: Vec<&str> = args.specs.iter().chain(&args.brdf).map(String::as_str).collect();

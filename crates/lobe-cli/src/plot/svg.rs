@@ -5,6 +5,7 @@
 //! the few shapes below. All that varies between light and dark is in classes, and written out twice: `var()` would be
 //! shorter, but the programs that turn SVG into print do not know it.
 
+use base64::Engine as _;
 use std::fmt::Write as _;
 
 /// A point of the picture: x to the right, y down.
@@ -103,6 +104,17 @@ impl Svg {
         let (x, y, width, height) = (short(x), short(y), short(width), short(height));
         let _ =
             writeln!(self.body, "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/>");
+    }
+
+    /// A PNG file, its pixels as they are.
+    pub(crate) fn image(&mut self, (x, y): Point, width: f64, height: f64, png: &[u8]) {
+        let data = base64::engine::general_purpose::STANDARD.encode(png);
+        let (x, y, width, height) = (short(x), short(y), short(width), short(height));
+        let _ = writeln!(
+            self.body,
+            "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
+             href=\"data:image/png;base64,{data}\"/>"
+        );
     }
 
     /// A small disc.

@@ -2,7 +2,8 @@
 
 use lobe::{Brdf, Rgb, Vec3};
 use lobe_energy::{Albedo, Exchanged, directional_albedo_to};
-use lobe_scene::{LobeRecord, Material, Scene, View};
+use lobe_scene::image::Display;
+use lobe_scene::{LobeRecord, Material, Renderer, Scene, Settings, View, procedural};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -66,6 +67,23 @@ pub(crate) struct MaterialFacts {
     pub(crate) gains_energy: bool,
     /// The verdict in words, with what would mend it.
     pub(crate) verdict: String,
+    /// Which lobes it is made of, and why, in words.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) reasons: Vec<String>,
+    /// A PNG file of a sphere of it.
+    #[serde(skip)]
+    pub(crate) ball: Option<Vec<u8>>,
+}
+
+/// The pixels of a sphere, to both sides.
+pub(crate) const BALL: u32 = 144;
+
+/// A sphere of the material under the light of a contact sheet. Nothing for one that cannot be drawn.
+fn ball(material: &Material) -> Option<Vec<u8>> {
+    let scene = procedural::swatch(material.clone()).ok()?;
+    let settings = Settings { width: BALL, height: BALL, samples: 4, ..Settings::default() };
+    let image = Renderer::new(&scene).ok()?.render(scene.views.first()?, &settings, None).ok()?;
+    image.to_png(&Display::default()).ok()
 }
 
 /// One lobe of a material.
@@ -198,6 +216,8 @@ fn one(shown: &Shown<'_>) -> MaterialFacts {
         highest: known.then_some(highest.1),
         gains_energy,
         verdict: verdict(known, &highest, gains_energy, &lobes),
+        reasons: material.reasons(),
+        ball: ball(material),
         highest_at: highest.0,
         lobes,
     }

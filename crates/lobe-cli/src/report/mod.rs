@@ -1,6 +1,5 @@
 //! `lobe report`: renders, plots and checks, and writes it all into one page.
 
-mod base64;
 mod checks;
 mod materials;
 mod page;
@@ -16,7 +15,6 @@ use crate::progress::Progress;
 use crate::render;
 use crate::spec;
 use checks::Check;
-use lobe_scene::Renderer;
 use materials::{MaterialFacts, Shown, Whole};
 use pictures::Picture;
 use serde::Serialize;
@@ -82,8 +80,8 @@ impl Plot {
 pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Failure> {
     let start = Instant::now();
     // A wrong scene or folder is known before the work.
-    let scene = render::open(args.scene.as_deref(), args.shading.as_deref())?;
-    let renderer = Renderer::new(&scene)?;
+    let scene = render::open(args.scene.as_deref(), args.shading.as_deref(), quiet)?;
+    let renderer = render::prepare(&scene, quiet)?;
     let load = start.elapsed().as_secs_f64();
     let [page_path, facts_path] = ["index.html", "report.json"].map(|name| args.output.join(name));
     output::make_folder(&args.output, &[&page_path, &facts_path])?;
@@ -285,6 +283,14 @@ fn model_plots(shown: &[Shown<'_>]) -> Vec<Plot> {
         let whole = whole.map(|(shown, _)| Whole::of(&shown.material));
         if let Some(brdf) = &whole {
             let series = Series { name: (*name).clone(), brdf };
+            if let Ok(svg) = plot::image(&series, setting) {
+                plots.push(Plot::new(
+                    format!("Image slice of {name}"),
+                    "All of it at a glance: the highlight at the left edge, Fresnel's grazing light at the top, light that goes \
+                     back to where it came from at the bottom.",
+                    svg,
+                ));
+            }
             plots.push(Plot::new(
                 format!("{name} in three dimensions, light at 55°"),
                 "The lobe of the microfacets, with the outer ring at its peak.",

@@ -1,13 +1,14 @@
 //! The page: one HTML file that needs no other, for light and dark, wide and narrow, screen and paper.
 
 use super::checks::Check;
-use super::materials::{LobeFacts, MaterialFacts, SHOWN};
+use super::materials::{BALL, LobeFacts, MaterialFacts, SHOWN};
 use super::pictures::Picture;
 use super::trade::{BUDGET, EFFORT, Trade};
-use super::{Facts, Plot, base64};
+use super::{Facts, Plot};
 use crate::plot::svg::{escape, label, style};
 use crate::plot::{front, pareto_panel};
 use crate::trade::{Choice, KINDS, dots, machine, short, what};
+use base64::Engine as _;
 use lobe_trade::Row;
 use std::fmt::Write as _;
 
@@ -27,6 +28,12 @@ nav{display:flex;flex-wrap:wrap;gap:4px 18px;margin:14px 0 22px;font-size:.95rem
 figure{margin:0}img{display:block;width:100%;height:auto;border-radius:8px;background:var(--card)}\
 figcaption{color:var(--soft);font-size:.93rem;margin-top:8px;max-width:72ch}\
 figcaption b{color:var(--ink);font-weight:600}\
+button{font:inherit;color:inherit;background:none;border:0;padding:0;margin:0;text-align:inherit;cursor:pointer}\
+:focus-visible{outline:2px solid var(--link);outline-offset:2px}\
+button.open{display:block;width:100%;cursor:zoom-in}\
+dialog{border:0;padding:12px;border-radius:10px;background:var(--paper);color:var(--ink);max-width:96vw;max-height:96vh;\
+cursor:zoom-out}dialog::backdrop{background:rgba(0,0,0,.72)}\
+dialog img,dialog svg{display:block;width:auto;min-width:min(90vw,900px);max-width:92vw;max-height:92vh;object-fit:contain}\
 .grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,440px),1fr));gap:30px 28px;margin-top:18px}\
 .plot{border:1px solid var(--line);border-radius:8px;padding:14px 14px 16px;background:var(--paper)}\
 .plot svg{display:block;width:100%;height:auto;margin:6px 0;max-height:600px}\
@@ -37,6 +44,9 @@ th,td{text-align:left;vertical-align:top;padding:8px 14px;border-bottom:1px soli
 tbody tr:last-child td,tbody tr:last-child th{border-bottom:0}\
 thead th{font-weight:600;color:var(--soft);background:var(--card);white-space:nowrap}\
 tbody th{font-weight:600;white-space:nowrap}\
+th[aria-sort] button::after{content:' ▴'}th[aria-sort=descending] button::after{content:' ▾'}\
+td.ball{width:88px;padding:6px 8px}td.ball img{width:72px;height:72px;min-width:72px}td.ball button.open{width:72px}\
+ul.why{margin:6px 0 0;padding-left:18px;color:var(--soft);font-size:.88rem}\
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}\
 td.where{min-width:52ch;font-size:.85rem;color:var(--soft)}td.verdict{min-width:26ch}td.lobes{min-width:34ch}\
 #materials tbody th{white-space:normal;min-width:14ch;overflow-wrap:anywhere}\
@@ -53,8 +63,20 @@ footer{padding-top:34px;padding-bottom:48px;color:var(--soft);font-size:.9rem}\
 @media (max-width:600px){header,main,footer{padding-left:16px;padding-right:16px}h1{font-size:1.55rem}\
 .plot{padding:10px 8px 14px}th,td{padding:7px 10px}}\
 @media print{:root{--paper:#fff;--card:#f6f7f8;--ink:#000;--soft:#444;--line:#bbb;--link:#000;--good:#000;--bad:#000;\
---good-back:#fff;--bad-back:#fff}nav{display:none}.grid{display:block}figure,.check,tr{break-inside:avoid}\
+--good-back:#fff;--bad-back:#fff}nav,dialog{display:none}th[aria-sort] button::after{content:''}.grid{display:block}figure,.check,tr{break-inside:avoid}\
 .plot,figure{margin-bottom:18px}.scroll{overflow:visible}h2{break-after:avoid}}";
+
+/// Sorts the tables, and opens pictures large. Without it the page has all that it has.
+const SCRIPT: &str = include_str!("page.js");
+
+/// A PNG file as an element.
+fn picture_element(png: &[u8], (width, height): (u32, u32), alt: &str) -> String {
+    format!(
+        "<img width=\"{width}\" height=\"{height}\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
+        escape(alt),
+        base64::engine::general_purpose::STANDARD.encode(png)
+    )
+}
 
 /// The page.
 pub(crate) fn html(facts: &Facts, plots: &[Plot]) -> String {
@@ -85,7 +107,7 @@ pub(crate) fn html(facts: &Facts, plots: &[Plot]) -> String {
     let _ = write!(
         page,
         "</main>\n<footer>Made by lobe {}. The same facts for programs: <code>report.json</code>.</footer>\n\
-         </body>\n</html>\n",
+         <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
         facts.version
     );
     page
@@ -144,12 +166,12 @@ fn views(page: &mut String, pictures: &[Picture]) {
         }
         let _ = writeln!(
             page,
-            "<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">\
-             <figcaption><b>{}</b>. {}</figcaption></figure>",
-            picture.width,
-            picture.height,
-            escape(&format!("The view {}. {}", picture.name, picture.caption)),
-            base64::encode(&picture.png),
+            "<figure>{}<figcaption><b>{}</b>. {}</figcaption></figure>",
+            picture_element(
+                &picture.png,
+                (picture.width, picture.height),
+                &format!("The view {}. {}", picture.name, picture.caption)
+            ),
             escape(&picture.name),
             prose(&picture.caption)
         );
@@ -180,8 +202,8 @@ fn materials(page: &mut String, materials: &[MaterialFacts]) {
         "<section id=\"materials\">\n<h2>The materials</h2>\n<p>The directional albedo is what one sees of a uniform white world \
          from that angle, measured from the normal; the largest of red, green and blue is shown. Above 1 a surface sends out \
          more than it receives. The verdict also looks at it the other way round, at the part of the light from one direction \
-         that is reflected anywhere: for a BRDF that is the same, for the lecture's highlights it is not.</p>\n<div class=\"scroll\"><table>\n<thead><tr><th>material</th>\
-         <th>lobes and parameters</th>",
+         that is reflected anywhere: for a BRDF that is the same, for the lecture's highlights it is not. Each sphere is lit from the upper left, and a little from the right.</p>\n\
+         <div class=\"scroll\"><table>\n<thead><tr><th>sphere</th><th>material</th><th>lobes and parameters</th>",
     );
     for angle in SHOWN {
         let _ = write!(page, "<th class=\"n\">albedo {angle}°</th>");
@@ -192,9 +214,11 @@ fn materials(page: &mut String, materials: &[MaterialFacts]) {
         let lobes = if lobes.is_empty() { "none".to_owned() } else { lobes.join("<br>") };
         let _ = write!(
             page,
-            "<tr><th scope=\"row\">{}</th><td class=\"lobes\">{lobes}{}</td>",
+            "<tr><td class=\"ball\">{}</td><th scope=\"row\">{}</th><td class=\"lobes\">{lobes}{}{}</td>",
+            ball(material),
             escape(&material.name),
-            extras(material)
+            extras(material),
+            why(&material.reasons)
         );
         for index in 0..SHOWN.len() {
             let text = match material.albedo.get(index) {
@@ -208,6 +232,21 @@ fn materials(page: &mut String, materials: &[MaterialFacts]) {
         let _ = writeln!(page, "<td class=\"verdict\">{verdict}</td></tr>");
     }
     page.push_str("</tbody></table></div>\n</section>\n");
+}
+
+fn ball(material: &MaterialFacts) -> String {
+    match &material.ball {
+        Some(png) => picture_element(png, (BALL, BALL), &format!("A sphere of {}", material.name)),
+        None => String::new(),
+    }
+}
+
+fn why(reasons: &[String]) -> String {
+    if reasons.is_empty() {
+        return String::new();
+    }
+    let items: Vec<_> = reasons.iter().map(|reason| format!("<li>{}</li>", prose(reason))).collect();
+    format!("<ul class=\"why\">{}</ul>", items.concat())
 }
 
 fn lobe(lobe: &LobeFacts) -> String {

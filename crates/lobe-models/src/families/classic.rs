@@ -12,7 +12,7 @@ const HALF_VECTOR: Bound = Bound::Derived { formula: "u (14 + 14 L)", at: half_v
 /// `docs/numerics.md`, "The mirror lobe".
 const MIRROR: Bound = Bound::Derived { formula: "u (7 + 6.5 L + 5 q (1/(r·v) - 1))", at: mirror };
 
-pub(super) const MODELS: &[Model] = &[
+pub(super) static MODELS: &[Model] = &[
     model! {
         name: "lambert",
         summary: "ρ/π, perfectly diffuse (Lambert 1760)",

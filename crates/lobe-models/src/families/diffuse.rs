@@ -19,7 +19,7 @@ pub(super) fn of_sheen(alpha: f64, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     if t < 80.0 { Bound::WORST + 12.0 * t / 16_777_216.0 } else { f64::INFINITY }
 }
 
-pub(super) const MODELS: &[Model] = &[
+pub(super) static MODELS: &[Model] = &[
     model! {
         name: "oren-nayar",
         summary: "rough Lambertian V-cavities with interreflections (Oren and Nayar 1994, full)",

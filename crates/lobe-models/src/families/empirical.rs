@@ -210,7 +210,7 @@ fn generalised_cosine(c: [f64; 3], q: f64, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     down_the_lobe(8.0 + 11.0 * q * (1.0 / cos - 1.0), 6.0, depth)
 }
 
-pub(super) const MODELS: &[Model] = &[
+pub(super) static MODELS: &[Model] = &[
     model! {
         name: "ward",
         summary: "Gaussian half-vector lobe over √((n·l)(n·v)) (Ward 1992)",

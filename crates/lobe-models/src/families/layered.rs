@@ -9,7 +9,7 @@ use lobe::{Alpha, Clearcoat, Coat, Lambert, MetallicRoughness, Microfacet, Sheen
 
 const ROUGHNESS: Parameter = Parameter::number("roughness", 0.01, 1.0, "the perceptual roughness, whose square is α");
 
-pub(super) const MODELS: &[Model] = &[
+pub(super) static MODELS: &[Model] = &[
     Model {
         name: "gltf",
         summary: "metallic-roughness of glTF 2.0, appendix B, with KHR_materials_ior, specular and anisotropy",

@@ -46,7 +46,7 @@ const GAMMA: Parameter =
 const STUDENT_GAMMA: Parameter =
     Parameter::number("student-gamma", 1.6, 40.0, "the γ of student-t, 2 for GGX").or(Value::Number(3.0));
 
-pub(super) const MODELS: &[Model] = &[Model {
+pub(super) static MODELS: &[Model] = &[Model {
     name: "microfacet",
     summary: "D F G/(4 (n·l)(n·v)) of any terms (Torrance and Sparrow 1967, Walter et al. 2007)",
     parameters: &[

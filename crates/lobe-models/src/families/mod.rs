@@ -11,8 +11,11 @@ mod physical;
 use crate::catalogue::Model;
 
 /// All families.
-pub(crate) const ALL: &[&[Model]] =
-    &[classic::MODELS, diffuse::MODELS, empirical::MODELS, layered::MODELS, microfacet::MODELS, physical::MODELS];
+///
+/// Statics, and no constants: the value of a constant is made anew in every crate that names it, and all constructors and
+/// kernels behind these pointers would be compiled once more there.
+pub(crate) static ALL: [&[Model]; 6] =
+    [classic::MODELS, diffuse::MODELS, empirical::MODELS, layered::MODELS, microfacet::MODELS, physical::MODELS];
 
 /// A constructor in each number type, and that of the batch, from one text: a generic function and one of `f32`, in a
 /// module of the name that is given, where the last calls of the text are to what `finish` names.

@@ -53,7 +53,7 @@ fn generated(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     depth.map_or(f64::INFINITY, |depth| Bound::WORST + 52.0 * depth / 16_777_216.0)
 }
 
-pub(super) const MODELS: &[Model] = &[
+pub(super) static MODELS: &[Model] = &[
     Model {
         name: "torrance-sparrow",
         summary: "a Gaussian of the facets' angles, V-cavities and exact Fresnel (Torrance and Sparrow 1967)",

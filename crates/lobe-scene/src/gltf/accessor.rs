@@ -82,7 +82,7 @@ fn elements<T: Copy>(
         }
         // Zeros, of which a sparse one replaces some. Bounded, because no byte of the file stands for them.
         None => {
-            const MOST: usize = 1 << 22;
+            const MOST: usize = 1 << 20;
             if accessor.sparse().is_none() {
                 return Err(wrong(accessor, "has no buffer view; its data may be compressed, which is not supported"));
             }

@@ -4,9 +4,9 @@ use super::accessor::{components, floats, indices};
 use super::{MAX_TRIANGLES, Problem, Reader, name_of};
 use crate::mesh::{MAX_COORDINATE, Mesh, Triangle, Vertex};
 use crate::normals::{self, MISSING, Smoothing};
+use crate::tangents;
 use ::gltf::mesh::Mode;
 use ::gltf::{Primitive, Semantic};
-use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 use glam::{DMat3, DMat4, Vec2, Vec3, Vec4};
 
 /// What a primitive has for each of its points.
@@ -92,10 +92,13 @@ impl Reader<'_> {
             self.once(format!("{what} has no triangle with an area, and is left out"));
             return Ok(());
         }
+        if mesh.positions.len() > 3 * mesh.triangles.len() {
+            keep_what_is_used(&mut mesh);
+        }
         normals::fill(&mut mesh, &[], Smoothing::Flat);
         if !points.has_tangents && self.needs_tangents(material) && !mesh.vertices.is_empty() {
             let set = self.tangent_set(material);
-            tangents(&mut mesh, set);
+            tangents::fill(&mut mesh, set);
         }
         self.scene.meshes.push(mesh);
         Ok(())
@@ -194,6 +197,24 @@ impl Reader<'_> {
     }
 }
 
+/// Drops the points that no triangle has: an accessor without data states millions of them in a few bytes. Normals and
+/// vertices have the indices of the points here.
+fn keep_what_is_used(mesh: &mut Mesh) {
+    let old = std::mem::take(mesh);
+    for triangle in old.triangles {
+        let first = mesh.positions.len() as u32;
+        let mut place = [0; 3];
+        for ((from, to), index) in triangle.positions.into_iter().zip(&mut place).zip(first..) {
+            *to = index;
+            mesh.positions.extend(old.positions.get(from as usize));
+            mesh.normals.extend(old.normals.get(from as usize));
+            mesh.vertices.extend(old.vertices.get(from as usize));
+        }
+        let normals = [0, 1, 2].map(|i| if triangle.normals[i] == MISSING { MISSING } else { place[i] });
+        mesh.triangles.push(Triangle { positions: place, normals, vertices: place, material: triangle.material });
+    }
+}
+
 /// The corners of each triangle, counter-clockwise from outside.
 fn faces(corners: &[u32], mode: Mode, flips: bool) -> Vec<[u32; 3]> {
     let mut faces: Vec<[u32; 3]> = match mode {
@@ -216,57 +237,4 @@ fn faces(corners: &[u32], mode: Mode, flips: bool) -> Vec<[u32; 3]> {
         faces.iter_mut().for_each(|face| face.swap(1, 2));
     }
     faces
-}
-
-/// Tangents by Mikkelsen's method, which normal maps are baked for. A vertex each for every corner, since neighbours may
-/// disagree.
-fn tangents(mesh: &mut Mesh, set: usize) {
-    struct Corners<'m> {
-        mesh: &'m Mesh,
-        set: usize,
-        found: Vec<Vec4>,
-    }
-    impl Corners<'_> {
-        fn triangle(&self, face: usize) -> &Triangle {
-            &self.mesh.triangles[face]
-        }
-    }
-    impl Geometry for Corners<'_> {
-        fn num_faces(&self) -> usize {
-            self.mesh.triangles.len()
-        }
-        fn num_vertices_of_face(&self, _face: usize) -> usize {
-            3
-        }
-        fn position(&self, face: usize, corner: usize) -> [f32; 3] {
-            self.mesh.positions[self.triangle(face).positions[corner] as usize].into()
-        }
-        fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
-            self.mesh.normals[self.triangle(face).normals[corner] as usize].into()
-        }
-        fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
-            self.mesh.vertices[self.triangle(face).vertices[corner] as usize].uv[self.set].into()
-        }
-        fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {
-            if let (Some(space), Some(place)) = (space, self.found.get_mut(3 * face + corner)) {
-                // The method takes v to point up, and glTF's points down.
-                let [x, y, z, hand] = space.tangent_encoded();
-                *place = Vec4::new(x, y, z, -hand);
-            }
-        }
-    }
-    let mut corners = Corners { mesh, set, found: vec![Vec4::ZERO; 3 * mesh.triangles.len()] };
-    if generate_tangents(&mut corners).is_err() {
-        return;
-    }
-    let found = corners.found;
-    let mut vertices = Vec::with_capacity(found.len());
-    for (triangle, tangents) in mesh.triangles.iter_mut().zip(found.chunks_exact(3)) {
-        for (index, &tangent) in triangle.vertices.iter_mut().zip(tangents) {
-            let old = mesh.vertices[*index as usize];
-            *index = vertices.len() as u32;
-            vertices.push(Vertex { tangent: if tangent.is_finite() { tangent } else { Vec4::ZERO }, ..old });
-        }
-    }
-    mesh.vertices = vertices;
 }

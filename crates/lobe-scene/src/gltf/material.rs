@@ -204,7 +204,7 @@ impl Reader<'_> {
         if bytes.len() as u64 > MAX_BYTES {
             return Err(format!("{name} has more than {MAX_BYTES} bytes"));
         }
-        let picture = picture::read(&bytes).map_err(|why| format!("{name}: {why}"))?;
+        let picture = picture::read(&bytes, &mut self.pictures).map_err(|why| format!("{name}: {why}"))?;
         let sampler = texture.sampler();
         let wrap = |mode| match mode {
             WrappingMode::Repeat => Wrap::Repeat,

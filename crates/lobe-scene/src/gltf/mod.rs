@@ -25,6 +25,7 @@ mod material;
 use crate::camera::Camera;
 use crate::error::{Error, Warnings};
 use crate::files;
+use crate::picture::Budget;
 use crate::scene::{Light, Scene, View};
 use ::gltf::{Document, json};
 use accessor::Buffers;
@@ -36,8 +37,9 @@ use std::path::{Component, Path};
 
 /// The most bytes of a file, of its buffers together, and of a picture: 1 GiB.
 pub const MAX_BYTES: u64 = 1 << 30;
-/// The most triangles of a scene, copies counted. Each takes some 200 bytes when it is drawn.
-pub const MAX_TRIANGLES: usize = 20_000_000;
+/// The most triangles of a scene, copies counted: a small file may ask for many copies, and a renderer takes a few hundred
+/// bytes for each.
+pub const MAX_TRIANGLES: usize = 5_000_000;
 /// The deepest scene graph.
 const MAX_DEPTH: usize = 256;
 
@@ -70,8 +72,15 @@ pub fn parse(bytes: &[u8], file: &str, loader: Loader<'_>) -> Result<Scene, Erro
     check(&root, &mut warnings).map_err(content)?;
     let document = Document::from_json_without_validation(root);
     let buffers = read_buffers(&document, blob, loader).map_err(content)?;
-    let mut reader =
-        Reader { document: &document, buffers, scene: Scene::default(), warnings, triangles: 0, points: 0 };
+    let mut reader = Reader {
+        document: &document,
+        buffers,
+        scene: Scene::default(),
+        warnings,
+        triangles: 0,
+        points: 0,
+        pictures: Budget::default(),
+    };
     reader.read(loader).map_err(content)?;
     let Reader { mut scene, warnings, .. } = reader;
     if scene.triangle_count() == 0 {
@@ -146,7 +155,19 @@ const KNOWN: &[&str] = &[
 
 /// Everything that the reader of the document relies on: indices that exist, words that are known.
 fn check(root: &json::Root, warnings: &mut Warnings) -> Result<(), Problem> {
-    use json::validation::{Error as Fault, Validate as _};
+    use json::mesh::Semantic;
+    use json::validation::{Checked, Error as Fault, Validate as _};
+    // The validation below looks these up before it has compared them (found by fuzzing gltf-json 1.4.1; the file
+    // `positions-nowhere.gltf` of the corpus panics there without this).
+    for (mesh, primitives) in root.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
+        for (part, primitive) in primitives.iter().enumerate() {
+            let positions = primitive.attributes.get(&Checked::Valid(Semantic::Positions)).map(json::Index::value);
+            if let Some(index) = positions.filter(|index| *index >= root.accessors.len()) {
+                let (path, count) = (format!("meshes[{mesh}].primitives[{part}]"), root.accessors.len());
+                return Err(Problem(format!("the positions of `{path}` are accessor {index} of {count}")));
+            }
+        }
+    }
     let mut fault = None;
     root.validate(root, json::Path::new, &mut |path, error| {
         let path = path().to_string();
@@ -236,6 +257,7 @@ struct Reader<'d> {
     /// How many there are so far, with all copies.
     triangles: usize,
     points: usize,
+    pictures: Budget,
 }
 
 impl Reader<'_> {
@@ -327,7 +349,7 @@ impl Reader<'_> {
         self.scene.views.push(View { name, camera: Some(camera), ..View::default() });
     }
 
-    /// `KHR_lights_punctual`: candela and lux are taken as W·sr⁻¹ and W·m⁻², as every viewer does.
+    /// `KHR_lights_punctual`: candela and lux are taken as W·sr⁻¹ and W·m⁻².
     fn light(&mut self, light: &::gltf::khr_lights_punctual::Light<'_>, world: DMat4) -> Option<Light> {
         use ::gltf::khr_lights_punctual::Kind;
         let intensity = Rgb::from(light.color()) * light.intensity();

@@ -175,14 +175,21 @@ impl<B, R: Real> Clearcoat<B, R> {
         Self { base, clearcoat, distribution: Ggx::new(alpha) }
     }
 
+    /// The part of what is below the coat that is seen through it from `v`: `1 − c (0.04 + 0.96 (1 − n·v)⁵)`, which is the
+    /// base's share, and that of its emission.
+    ///
+    /// Of positive terms, so that nothing cancels. For `n·v` from 0 to 1.
+    #[inline(always)]
+    pub fn transmitted(&self, v: Vec3<R>) -> R {
+        let seen = one_minus_fifth_power(Incidence::of(v)).times(0.96);
+        (v.z.lift(1.0) - self.clearcoat) + self.clearcoat * seen
+    }
+
     #[inline(always)]
     fn coated(&self, base: Rgb<R>, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R> {
-        let one = weight.lift(1.0);
-        let incidence = Incidence::of(v);
-        let x5 = fifth_power(incidence.one_minus_cos);
+        let x5 = fifth_power(Incidence::of(v).one_minus_cos);
         let reflected = self.clearcoat * x5.times(0.96).plus(0.04);
-        // 1 − c F, of positive terms.
-        let transmitted = (one - self.clearcoat) + self.clearcoat * one_minus_fifth_power(incidence).times(0.96);
+        let transmitted = self.transmitted(v);
         let (specular, _) = Facet::between(l, v).specular(&self.distribution, &SmithSeparable, weight);
         let coat = above_horizon(l, v, specular * reflected);
         // Selected too: below the horizon the base is 0, and an x⁵ that is not a number there must not spoil it.
