@@ -1,4 +1,4 @@
-//! Writes the built-in scene: `cargo run -p lobe-scene --example make_assets` from the root of the repository.
+//! Writes the built-in scene: `cargo run --example make_assets` from the root of the repository.
 //!
 //! A studio with two steps, from the back to the front:
 //!

@@ -1,7 +1,7 @@
-//! Writes the glTF scene of materials: `cargo run -p lobe-scene --example make_gltf` from the root of the repository.
+//! Writes the glTF scene of materials: `cargo run --example make_gltf` from the root of the repository.
 //!
-//! Twelve spheres on a floor, each a material of glTF 2.0: metals, plastics, a car paint, cloth, brushed metal, and some
-//! with textures. One sphere is in the file, and twelve nodes show it.
+//! Twelve spheres on a floor, each a material of glTF 2.0: metals, a mirror, plastic, a car paint, cloth, brushed metal, chalk,
+//! and some with textures. One sphere is in the file, and twelve nodes show it.
 
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
@@ -134,7 +134,7 @@ fn materials() -> Vec<Value> {
             bumpy["normalTexture"] = json!({"index": 1, "extensions": scale});
             with(bumpy, "KHR_materials_clearcoat", json!({"clearcoatFactor": 1.0, "clearcoatRoughnessFactor": 0.08}))
         },
-        plain("clay", [0.62, 0.45, 0.36], 0.0, 1.0),
+        plain("mirror", [0.95, 0.95, 0.95], 1.0, 0.02),
         with(plain("high index", [0.4, 0.4, 0.45], 0.0, 0.15), "KHR_materials_ior", json!({"ior": 2.4})),
         with(
             plain("chalk without gloss", [0.85, 0.85, 0.8], 0.0, 0.7),
@@ -146,7 +146,7 @@ fn materials() -> Vec<Value> {
             lamp["emissiveFactor"] = json!([1.0, 0.5, 0.12]);
             with(lamp, "KHR_materials_emissive_strength", json!({"emissiveStrength": 1.4}))
         },
-        plain("floor", [0.35, 0.36, 0.38], 0.0, 0.55),
+        plain("floor", [0.22, 0.225, 0.24], 0.0, 0.55),
     ]
 }
 

@@ -1,4 +1,4 @@
-//! Times the stages on a procedural scene: `cargo run --release -p lobe-scene --example measure [triangles]`.
+//! Times the stages on a procedural scene: `cargo run --release --example measure [triangles]`.
 
 use lobe_scene::procedural::sphere_field;
 use lobe_scene::{Renderer, Settings, obj};

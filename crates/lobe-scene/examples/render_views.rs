@@ -1,4 +1,4 @@
-//! Renders all views of a scene into a folder: `cargo run --release -p lobe-scene --example render_views -- folder`.
+//! Renders all views of a scene into a folder: `cargo run --release --example render_views -- folder`.
 //! Further arguments: samples for each pixel (16), a scene file (the built-in scene).
 
 use lobe_scene::image::Display;

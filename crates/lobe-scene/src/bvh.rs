@@ -7,7 +7,7 @@
 //! each edge, and a shared edge gives both neighbours the same volume with exactly the opposite sign (the test of
 //! Embree's robust mode, after Plücker coordinates). Where a sign is in doubt it is computed again in `f64`.
 
-use crate::mesh::place;
+use crate::mesh::first_in_place;
 use glam::{Vec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -15,7 +15,7 @@ use obvhs::bvh2::leaf_collapser::collapse;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use obvhs::ray::{Ray, RayHit};
-use std::collections::HashSet;
+use rayon::prelude::*;
 
 /// A triangle as the ray test wants it.
 #[derive(Debug, Clone, Copy)]
@@ -50,10 +50,8 @@ impl Bvh {
         let padding = Vec3A::splat(8.0 * f32::EPSILON * largest);
         // The builder pairs the boxes that fit best. Among equal boxes it finds but one pair in each pass over all of
         // them, and its time becomes quadratic. Of triangles in the same place no ray needs more than the first.
-        let mut seen = HashSet::with_capacity(triangles.len());
-        let distinct: Vec<u32> =
-            (0..).zip(triangles).filter(|(_, t)| seen.insert(place(**t))).map(|(at, _)| at).collect();
-        drop(seen);
+        let is_first = first_in_place(triangles.par_iter().copied());
+        let distinct: Vec<u32> = (0..).zip(is_first).filter_map(|(at, first)| first.then_some(at)).collect();
         let boxes: Vec<Aabb> = distinct
             .iter()
             .map(|&at| {

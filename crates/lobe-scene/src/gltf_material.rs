@@ -327,8 +327,10 @@ impl GltfMaterial {
         if f.unlit {
             return Vec::new();
         }
-        let colour = |c: [f32; 3]| Value::Colour(c.map(f64::from));
-        let number = |x: f32, low: f32| Value::Number(f64::from(x.max(low)));
+        // As the file says it: 0.3 and not 0.30000001192092896. In `f32` it is the same.
+        let exact = |x: f32| x.to_string().parse().unwrap_or(f64::from(x));
+        let colour = |c: [f32; 3]| Value::Colour(c.map(exact));
+        let number = |x: f32, low: f32| Value::Number(exact(x.max(low)));
         let default = Factors::default();
         let mut base = vec![
             ("base-color", colour(f.base_color)),

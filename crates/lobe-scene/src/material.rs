@@ -290,6 +290,14 @@ impl Material {
         }
     }
 
+    /// What of a uniform ambient light it sends on, roughly and without its pictures.
+    pub(crate) fn colour(&self) -> Rgb {
+        match self.gltf() {
+            Some(gltf) => Rgb::from(gltf.factors.base_color),
+            None => self.ambient,
+        }
+    }
+
     /// Whether some of its numbers are pictures.
     pub(crate) fn is_textured(&self) -> bool {
         self.mapped().is_some() || self.gltf().is_some()

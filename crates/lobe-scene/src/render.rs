@@ -638,7 +638,8 @@ impl Pass<'_> {
         }
         if !is_black(self.lights.ambient.radiance) {
             let (diffuse, specular) = gltf.ambient(&found, seen(&frame), coat_cos);
-            let ambient = diffuse * self.lights.ambient.radiance + specular * self.mirrored(point, &frame);
+            let ambient =
+                diffuse * self.lights.ambient.radiance + specular * self.mirrored(point, &frame, found.alpha, jitter);
             row.sums[pixel] = row.sums[pixel] + weight * ambient;
         }
         row.sums[pixel] = row.sums[pixel] + below * found.emission;
@@ -648,15 +649,21 @@ impl Pass<'_> {
     }
 
     /// The ambient light from the mirror direction of the viewer: as much as there is on the mean, spread like the
-    /// background; the mean where something stands before that.
-    fn mirrored(&self, point: &Point<'_>, frame: &Frame) -> Rgb {
+    /// background. What stands before that is seen as the ambient light that it sends on itself, the less sharply the rougher
+    /// the surface is: a slope of `α` turns the mirror direction by twice its angle.
+    fn mirrored(&self, point: &Point<'_>, frame: &Frame, alpha: f32, jitter: Jitter) -> Rgb {
         let ambient = self.lights.ambient.radiance;
         let mean = self.background.mean();
         let normal = Vec3::from(frame.normal);
-        let direction = (normal * (2.0 * normal.dot(point.v)) - point.v).normalize_or(normal);
-        let is_even = matches!(self.background, Background::Solid(_)) || direction.dot(point.face) <= 0.0;
-        if is_even || !self.renderer.bvh.is_free(point.outside.into(), direction.into(), f32::INFINITY) {
+        let mirror = normal * (2.0 * normal.dot(point.v)) - point.v;
+        let direction = (mirror + jitter.in_ball() * (2.0 * alpha)).normalize_or(normal);
+        if direction.dot(point.face) <= 0.0 {
             return ambient;
+        }
+        if let Some(hit) = self.renderer.bvh.nearest(point.outside.into(), direction.into(), f32::INFINITY) {
+            let triangle = self.renderer.triangles.get(hit.triangle as usize);
+            let material = triangle.and_then(|triangle| self.materials.get(triangle.material as usize));
+            return material.map_or(ambient, |material| ambient * material.colour());
         }
         let there = self.background.radiance(direction);
         let part = |ambient: f32, there: f32, mean: f32| if mean > 0.0 { ambient * (there / mean) } else { ambient };

@@ -2,7 +2,7 @@
 
 use base64::Engine as _;
 use glam::Vec3;
-use lobe_scene::{Error, Light, Renderer, Scene, Settings, Surface, gltf};
+use lobe_scene::{Background, Error, Light, Renderer, Scene, Settings, Surface, View, gltf};
 use serde_json::{Value, json};
 use std::io;
 
@@ -668,4 +668,37 @@ fn a_coat_is_above_the_emission_too() {
     for ((with, without), coat) in with.into_iter().zip(without).zip(coat) {
         assert!((with - coat - 0.96 * without).abs() < 1e-5, "{with} {without} {coat}");
     }
+}
+
+/// A mirror of metal, tilted up and down, under a sky of 2 over a ground of 0, and then under another square.
+#[test]
+fn metals_show_the_environment_and_what_stands_before_it() {
+    let metal = json!({"pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 1], "roughnessFactor": 0.01}});
+    let seen = |degrees: f32, covered: bool| {
+        let mut file = square(metal.clone(), &[]);
+        let (s, c) = (degrees.to_radians() / 2.0).sin_cos();
+        file.json["nodes"][0]["rotation"] = json!([s, 0, 0, c]);
+        if covered {
+            // Two above it, facing down; its own colour is what is seen of it.
+            file.json["nodes"].as_array_mut().expect("a list").push(json!({
+                "mesh": 0, "translation": [0, 2, 0], "rotation": [std::f32::consts::FRAC_1_SQRT_2, 0, 0, std::f32::consts::FRAC_1_SQRT_2],
+            }));
+            file.json["scenes"] = json!([{"nodes": [0, 1, 2]}]);
+        }
+        let scene = file.read().expect("a scene");
+        let view = View {
+            background: Background::Gradient { bottom: lobe::Rgb::splat(0.0), top: lobe::Rgb::splat(2.0) },
+            lights: Some(vec![Light::Ambient(lobe::Rgb::splat(0.5))]),
+            ..scene.views[0].clone()
+        };
+        let settings = Settings { width: 3, height: 3, ..Settings::default() };
+        let image = Renderer::new(&scene).expect("a renderer").render(&view, &settings, None).expect("a picture");
+        image.pixels()[4]
+    };
+    // Half of the sky is what the ambient light of 0.5 is on the mean; Karis' fit has a metal reflect its base colour, roughly.
+    let near = |a: [f32; 3], b: [f32; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.06);
+    assert!(near(seen(-45.0, false), [1.0, 0.5, 0.0]), "{:?}", seen(-45.0, false));
+    assert!(near(seen(45.0, false), [0.0; 3]), "{:?}", seen(45.0, false));
+    assert!(near(seen(0.0, false), [0.5, 0.25, 0.0]), "{:?}", seen(0.0, false));
+    assert!(near(seen(-45.0, true), [0.5, 0.125, 0.0]), "{:?}", seen(-45.0, true));
 }

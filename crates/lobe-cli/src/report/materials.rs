@@ -76,7 +76,21 @@ pub(crate) struct MaterialFacts {
 }
 
 /// The pixels of a sphere, to both sides.
-pub(crate) const BALL: u32 = 144;
+pub(crate) const BALL: u32 = 128;
+
+/// All spheres together, as PNG: beside the pictures of the views the page stays below 5 MB.
+const MOST_BYTES: usize = 500_000;
+
+/// Takes away the spheres that the page has no room for.
+pub(crate) fn keep_the_first_balls(materials: &mut [MaterialFacts]) {
+    let mut bytes = 0;
+    for material in materials {
+        bytes += material.ball.as_ref().map_or(0, Vec::len);
+        if bytes > MOST_BYTES {
+            material.ball = None;
+        }
+    }
+}
 
 /// A sphere of the material under the light of a contact sheet. Nothing for one that cannot be drawn.
 fn ball(material: &Material) -> Option<Vec<u8>> {
@@ -245,6 +259,13 @@ fn verdict(known: bool, (place, highest): &(String, f64), gains_energy: bool, lo
         return format!(
             "gains energy: {:.0} %, {place}: the lecture's highlight has no cosine, so towards grazing light it gains without \
              bound. Render with --shading normalized-blinn-phong and Kd + Ks at most 1",
+            highest * 100.0
+        );
+    }
+    if lobes.iter().any(|lobe| lobe.model.starts_with("gltf")) {
+        return format!(
+            "gains energy: {:.1} %, {place}, as the equations of glTF 2.0 do towards grazing light: they weigh what is below \
+             by the Fresnel term of one direction alone",
             highest * 100.0
         );
     }

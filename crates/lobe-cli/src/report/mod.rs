@@ -99,7 +99,8 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
     let start_energy = Instant::now();
     let shown = materials::shown(&scene);
     let bar = Progress::new("energy", shown.len() as u64, quiet);
-    let materials = materials::facts(&shown, &|| bar.advance(1));
+    let mut materials = materials::facts(&shown, &|| bar.advance(1));
+    materials::keep_the_first_balls(&mut materials);
     drop(bar);
     let energy = start_energy.elapsed().as_secs_f64();
 
@@ -283,7 +284,7 @@ fn model_plots(shown: &[Shown<'_>]) -> Vec<Plot> {
         let whole = whole.map(|(shown, _)| Whole::of(&shown.material));
         if let Some(brdf) = &whole {
             let series = Series { name: (*name).clone(), brdf };
-            if let Ok(svg) = plot::image(&series, setting) {
+            if let Ok(svg) = plot::image(&series, Setting { log: false, ..setting }) {
                 plots.push(Plot::new(
                     format!("Image slice of {name}"),
                     "All of it at a glance: the highlight at the left edge, Fresnel's grazing light at the top, light that goes \

@@ -45,10 +45,10 @@ tbody tr:last-child td,tbody tr:last-child th{border-bottom:0}\
 thead th{font-weight:600;color:var(--soft);background:var(--card);white-space:nowrap}\
 tbody th{font-weight:600;white-space:nowrap}\
 th[aria-sort] button::after{content:' ▴'}th[aria-sort=descending] button::after{content:' ▾'}\
-td.ball{width:88px;padding:6px 8px}td.ball img{width:72px;height:72px;min-width:72px}td.ball button.open{width:72px}\
+td.ball img{width:64px;height:64px;min-width:64px}td.ball button.open{width:64px}\
 ul.why{margin:6px 0 0;padding-left:18px;color:var(--soft);font-size:.88rem}\
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}\
-td.where{min-width:52ch;font-size:.85rem;color:var(--soft)}td.verdict{min-width:26ch}td.lobes{min-width:34ch}\
+td.where{min-width:52ch;font-size:.85rem;color:var(--soft)}td.verdict{min-width:24ch}td.lobes{min-width:32ch}#materials th,#materials td{padding:8px 10px}#materials thead th.n{white-space:normal;min-width:8ch}\
 #materials tbody th{white-space:normal;min-width:14ch;overflow-wrap:anywhere}\
 code{font-family:ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;font-size:.9em}\
 pre{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:12px 14px;overflow-x:auto;margin:10px 0}\
