@@ -140,11 +140,11 @@ fn same_length(slices: &[&[f32]]) -> Result<(), LengthError> {
 }
 
 /// What goes into a kernel: `(v, (l, E))`.
-#[cfg_attr(any(test, fuzzing), allow(dead_code, reason = "see `Compiled`"))]
+#[cfg_attr(any(test, lobe_scalar), allow(dead_code, reason = "see `Compiled`"))]
 type Inputs<'a> = (Vec3<&'a [f32]>, (Vec3<&'a [f32]>, Rgb<&'a [f32]>));
 
 /// A lobe whose kernels are compiled: one for each level and precision.
-#[cfg_attr(any(test, fuzzing), allow(dead_code, reason = "its constructor is not there"))]
+#[cfg_attr(any(test, lobe_scalar), allow(dead_code, reason = "its constructor is not there"))]
 pub(crate) struct Compiled<B>(B);
 
 impl<B> BatchBrdf for Compiled<B>
@@ -199,13 +199,13 @@ where
     }
 }
 
-// The tests inside this crate run no batch, and would have all kernels compiled once more. Nor does a fuzz target: those that
-// draw run the kernels of `lobe-scene`. Instrumented, these here are ten minutes of a compiler's time.
-#[cfg(any(test, fuzzing))]
+// The tests inside this crate run no batch, and would have all kernels compiled once more. Nor do builds for a
+// fuzzer, see `lobe::batch`.
+#[cfg(any(test, lobe_scalar))]
 pub(crate) use pointwise as batched;
 
 /// What the constructor of a batch ends with.
-#[cfg(not(any(test, fuzzing)))]
+#[cfg(not(any(test, lobe_scalar)))]
 pub(crate) fn batched<B: Send + Sync + 'static>(lobe: B) -> AnyBatch
 where
     Compiled<B>: BatchBrdf,

@@ -44,7 +44,7 @@ impl Function {
 
     /// The loop of the kernel `K` to the precision `P`.
     #[cfg(feature = "batch")]
-    #[cfg_attr(test, allow(dead_code, reason = "see `Compiled`"))]
+    #[cfg_attr(any(test, lobe_scalar), allow(dead_code, reason = "see `Compiled`"))]
     pub(crate) fn lanes<P, K>() -> Self {
         Self::Lanes { precision: type_name::<P>(), kernel: type_name::<K>() }
     }

@@ -144,8 +144,6 @@ where
 {
     let batch = Batch::new();
     match precision {
-        // The fuzz targets draw with all digits; instrumented, the others are minutes of a compiler's time.
-        _ if cfg!(fuzzing) => batch.run(kernel, inputs, out),
         AnyPrecision::Precise => batch.run(kernel, inputs, out),
         AnyPrecision::Fast => batch.precision::<Fast>().run(kernel, inputs, out),
         AnyPrecision::Coarse => batch.precision::<Coarse>().run(kernel, inputs, out),

@@ -702,3 +702,23 @@ fn metals_show_the_environment_and_what_stands_before_it() {
     assert!(near(seen(0.0, false), [0.5, 0.25, 0.0]), "{:?}", seen(0.0, false));
     assert!(near(seen(-45.0, true), [0.5, 0.125, 0.0]), "{:?}", seen(-45.0, true));
 }
+
+#[test]
+fn pictures_without_data_and_cameras_of_another_kind_are_named() {
+    let mut file = File::triangle();
+    file.push("images", json!({}));
+    file.push("textures", json!({"source": 0}));
+    file.push("textures", json!({}));
+    file.material(json!({"normalTexture": {"index": 0}, "emissiveTexture": {"index": 1}}));
+    let warnings: Vec<_> = file.read().expect("a scene").warnings.into_iter().map(|warning| warning.text).collect();
+    let expected = ["texture 1 has no picture", "picture 0: has neither a URI nor a buffer view"];
+    assert_eq!(warnings.len(), 2, "{warnings:?}");
+    for expected in expected {
+        assert!(warnings.iter().any(|text| text.contains(expected)), "{warnings:?}");
+    }
+    let mut file = File::triangle();
+    file.json["cameras"] =
+        json!([{"type": "perspective", "orthographic": {"xmag": 1, "ymag": 1, "zfar": 9, "znear": 1}}]);
+    let text = file.read().expect_err("not its numbers").to_string();
+    assert!(text.contains("camera 0 is perspective, and has no `perspective`"), "{text}");
+}

@@ -194,11 +194,15 @@ impl Reader<'_> {
         let webp =
             texture.extension_value("EXT_texture_webp").and_then(|webp| webp.get("source")).and_then(Value::as_u64);
         let image = webp.and_then(|index| self.document.images().nth(usize::try_from(index).ok()?));
-        let image = image.unwrap_or_else(|| texture.source());
+        let image = image.or_else(|| texture.source()).ok_or_else(|| format!("texture {index} has no picture"))?;
         let name = name_of("picture", image.name(), image.index());
-        let bytes = match image.source() {
-            ::gltf::image::Source::View { view, .. } => accessor::slice(&view, &self.buffers).map(<[u8]>::to_vec),
-            ::gltf::image::Source::Uri { uri, .. } => fetch(uri, loader),
+        // Not by `image.source()`, which panics on a picture without data (found by fuzzing; `no-data.gltf`).
+        let json = self.document.as_json().images.get(image.index());
+        let view = json.and_then(|json| self.document.views().nth(json.buffer_view?.value()));
+        let bytes = match (view, json.and_then(|json| json.uri.as_ref())) {
+            (Some(view), _) => accessor::slice(&view, &self.buffers).map(<[u8]>::to_vec),
+            (None, Some(uri)) => fetch(uri, loader),
+            (None, None) => Err("has neither a URI nor a buffer view".to_owned()),
         };
         let bytes = bytes.map_err(|why| format!("{name}: {why}"))?;
         if bytes.len() as u64 > MAX_BYTES {

@@ -168,6 +168,18 @@ fn check(root: &json::Root, warnings: &mut Warnings) -> Result<(), Problem> {
             }
         }
     }
+    // A camera has the numbers of its kind, not just of any (`camera-kind.gltf`).
+    for (index, camera) in root.cameras.iter().enumerate() {
+        use json::camera::Type;
+        let (kind, there) = match camera.type_ {
+            Checked::Valid(Type::Perspective) => ("perspective", camera.perspective.is_some()),
+            Checked::Valid(Type::Orthographic) => ("orthographic", camera.orthographic.is_some()),
+            Checked::Invalid => continue,
+        };
+        if !there {
+            return Err(Problem(format!("camera {index} is {kind}, and has no `{kind}`")));
+        }
+    }
     let mut fault = None;
     root.validate(root, json::Path::new, &mut |path, error| {
         let path = path().to_string();

@@ -5,11 +5,14 @@ use super::{Kernel, Level};
 use crate::number::{Estimate, Precision};
 use crate::{Rgb, Vec3};
 
-#[cfg(any(
-    target_arch = "x86",
-    target_arch = "x86_64",
-    target_arch = "aarch64",
-    all(target_arch = "wasm32", target_feature = "simd128")
+#[cfg(all(
+    not(lobe_scalar),
+    any(
+        target_arch = "x86",
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        all(target_arch = "wasm32", target_feature = "simd128")
+    )
 ))]
 use {
     crate::number::Wide,
@@ -323,7 +326,10 @@ macro_rules! levels {
         /// ```
         pub fn levels(best: Level) -> impl Iterator<Item = (&'static str, Level)> + Clone {
             let _ = best;
-            [$(best.$from().map(|simd| ($name, Level::$variant(simd)))),*].into_iter().flatten()
+            // Where there is none, the type of the empty list is not known.
+            let all: [Option<(&'static str, Level)>; const { 0 $(+ { let _ = $lanes; 1 })* }] =
+                [$(best.$from().map(|simd| ($name, Level::$variant(simd)))),*];
+            all.into_iter().flatten()
         }
 
         impl<P, C, O, K> Sealed<P, C, O> for K
@@ -372,21 +378,25 @@ macro_rules! levels {
 }
 
 // SSE2 alone, which is all that a build for x86-64 may assume, runs the scalar: no machine of the last fifteen years
-// stops there, and every level more is code.
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+// stops there, and every level more is code. With `--cfg lobe_scalar` every machine does: instrumented for a fuzzer, the lanes
+// are many minutes of a compiler's time.
+#[cfg(all(not(lobe_scalar), any(target_arch = "x86", target_arch = "x86_64")))]
 levels! {
     Sse4_2 "sse4.2" as_sse4_2 => Wide<fearless_simd::Sse4_2>, 4;
     Avx2 "avx2" as_avx2 => Wide<fearless_simd::Avx2>, 8;
     Avx512 "avx512" as_avx512 => Wide<fearless_simd::Avx512>, 16
 }
-#[cfg(target_arch = "aarch64")]
+#[cfg(all(not(lobe_scalar), target_arch = "aarch64"))]
 levels! { Neon "neon" as_neon => Wide<fearless_simd::Neon>, 4 }
-#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+#[cfg(all(not(lobe_scalar), target_arch = "wasm32", target_feature = "simd128"))]
 levels! { WasmSimd128 "simd128" as_wasm_simd128 => Wide<fearless_simd::WasmSimd128>, 4 }
-#[cfg(not(any(
-    target_arch = "x86",
-    target_arch = "x86_64",
-    target_arch = "aarch64",
-    all(target_arch = "wasm32", target_feature = "simd128")
-)))]
+#[cfg(any(
+    lobe_scalar,
+    not(any(
+        target_arch = "x86",
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        all(target_arch = "wasm32", target_feature = "simd128")
+    ))
+))]
 levels! {}
