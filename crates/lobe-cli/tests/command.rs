@@ -474,7 +474,7 @@ fn a_report_is_one_page_that_needs_nothing_else() {
             .iter()
             .all(|image| image.split('>').next().is_some_and(|tag| tag.contains("src=\"data:image/png;base64,")))
     );
-    for resource in ["src=\"http", "href=\"http", "url(", "@import", "<script", "<link"] {
+    for resource in ["src=\"http", "href=\"http", "url(", "@import", "<script ", "<link"] {
         assert!(!page.contains(resource), "{resource}");
     }
     assert!(!page.contains("NaN<") && page.ends_with("</html>\n"));
