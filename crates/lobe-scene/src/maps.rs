@@ -54,6 +54,7 @@ pub(crate) fn pictures(all: &[(&str, &Option<Map>)]) -> Option<String> {
 const MAX_BYTES: u64 = 1 << 30;
 
 /// Pictures that were read, by name, and what became of them.
+#[derive(Default)]
 pub(crate) struct Pictures {
     known: HashMap<String, Result<Arc<Picture>, String>>,
     textures: Vec<(Key, Arc<Texture>)>,
@@ -74,12 +75,6 @@ enum Kind {
     Normals,
     /// Heights, or normals if they are not grey, times this.
     Bump(f32),
-}
-
-impl Default for Pictures {
-    fn default() -> Self {
-        Self { known: HashMap::new(), textures: Vec::new(), budget: Budget::default() }
-    }
 }
 
 impl Pictures {
