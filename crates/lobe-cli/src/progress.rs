@@ -3,6 +3,7 @@
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// Work that takes less is not worth a bar.
@@ -71,21 +72,19 @@ impl Drop for Progress {
 /// Says what is being done, and for how long, of work that says nothing while it is done.
 #[derive(Debug)]
 pub(crate) struct Waiting {
-    bar: ProgressBar,
-    /// Dropped when the work is done.
-    _done: Sender<()>,
+    /// What ends the thread that shows it, and the thread.
+    shown: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
 impl Waiting {
     /// Never shown if `quiet`, nor in the first second.
     pub(crate) fn new(label: &str, quiet: bool) -> Self {
+        if quiet {
+            return Self { shown: None };
+        }
         let (done, wait) = channel();
         let bar = hidden(label, None, "{prefix:>14} {spinner} {elapsed}");
-        if !quiet {
-            let shown = bar.clone();
-            std::thread::spawn(move || show(&shown, &wait));
-        }
-        Self { bar, _done: done }
+        Self { shown: Some((done, std::thread::spawn(move || show(&bar, &wait)))) }
     }
 }
 
@@ -93,11 +92,18 @@ fn show(bar: &ProgressBar, wait: &Receiver<()>) {
     if wait.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
         bar.set_draw_target(ProgressDrawTarget::stderr());
         bar.enable_steady_tick(Duration::from_millis(200));
+        // Nothing is ever sent: the other end is dropped.
+        let _ = wait.recv();
     }
+    bar.finish_and_clear();
 }
 
 impl Drop for Waiting {
     fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        if let Some((done, thread)) = self.shown.take() {
+            drop(done);
+            // A bar that could not be drawn is no failure of the work.
+            let _ = thread.join();
+        }
     }
 }

@@ -387,7 +387,7 @@ impl GltfMaterial {
             (false, false) if f.specular != default.specular => number("specular", f.specular),
             (false, false) => "its colour is not white".to_owned(),
         };
-        let is_special = !self.plain().is_default() || maps.specular.is_some() || maps.specular_color.is_some();
+        let is_special = self.plain().specular.is_some() || maps.specular.is_some() || maps.specular_color.is_some();
         part(is_special, format!("a dielectric reflectance of its own: {specular}"), "`specular` and `ior`");
         let anisotropy = number("anisotropy", f.anisotropy);
         part(self.is_anisotropic(), format!("two widths: {anisotropy}"), "anisotropy");
@@ -455,12 +455,6 @@ pub(crate) type FullInput<R> = (PlainInput<R>, (R, Rgb<R>), R, (Rgb<R>, R));
 pub(crate) struct Plain {
     /// `η`, the weight and the colour, if they are not the default.
     specular: Option<(f32, f32, [f32; 3])>,
-}
-
-impl Plain {
-    fn is_default(&self) -> bool {
-        self.specular.is_none()
-    }
 }
 
 impl<R: Real> Kernel<((lobe::Vec3<R>, lobe::Vec3<R>, Rgb<R>), PlainInput<R>), Rgb<R>> for Plain {

@@ -8,6 +8,11 @@
 use base64::Engine as _;
 use std::fmt::Write as _;
 
+/// A PNG file as an address that holds it.
+pub(crate) fn data_uri(png: &[u8]) -> String {
+    format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(png))
+}
+
 /// A point of the picture: x to the right, y down.
 pub(crate) type Point = (f64, f64);
 
@@ -108,12 +113,12 @@ impl Svg {
 
     /// A PNG file, its pixels as they are.
     pub(crate) fn image(&mut self, (x, y): Point, width: f64, height: f64, png: &[u8]) {
-        let data = base64::engine::general_purpose::STANDARD.encode(png);
+        let data = data_uri(png);
         let (x, y, width, height) = (short(x), short(y), short(width), short(height));
         let _ = writeln!(
             self.body,
             "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
-             href=\"data:image/png;base64,{data}\"/>"
+             href=\"{data}\"/>"
         );
     }
 

@@ -5,10 +5,9 @@ use super::materials::{BALL, LobeFacts, MaterialFacts, SHOWN};
 use super::pictures::Picture;
 use super::trade::{BUDGET, EFFORT, Trade};
 use super::{Facts, Plot};
-use crate::plot::svg::{escape, label, style};
+use crate::plot::svg::{data_uri, escape, label, style};
 use crate::plot::{front, pareto_panel};
 use crate::trade::{Choice, KINDS, dots, machine, short, what};
-use base64::Engine as _;
 use lobe_trade::Row;
 use std::fmt::Write as _;
 
@@ -71,11 +70,7 @@ const SCRIPT: &str = include_str!("page.js");
 
 /// A PNG file as an element.
 fn picture_element(png: &[u8], (width, height): (u32, u32), alt: &str) -> String {
-    format!(
-        "<img width=\"{width}\" height=\"{height}\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
-        escape(alt),
-        base64::engine::general_purpose::STANDARD.encode(png)
-    )
+    format!("<img width=\"{width}\" height=\"{height}\" alt=\"{}\" src=\"{}\">", escape(alt), data_uri(png))
 }
 
 /// The page.
