@@ -1,270 +1,54 @@
-//! How much of the light a lobe reflects: the directional albedo of any [`Brdf`], by deterministic quadrature.
+//! How much of the light a lobe reflects, and what to do about the rest: albedos by deterministic quadrature, furnaces, and lobes that
+//! give back what single reflections lose.
 //!
 //! ```
-//! use lobe::{BlinnPhong, CommonNormalization, Rgb, Shininess, Vec3};
-//! use lobe_energy::directional_albedo;
+//! use lobe::{Alpha, Microfacet, Rgb, Vec3};
+//! use lobe::{distribution::Ggx, fresnel::Schlick, masking::SmithCorrelated};
+//! use lobe_energy::{KullaConty, directional_albedo};
 //!
-//! // The common normalisation of Blinn-Phong gains energy: 7.5 % of it at q = 8.
-//! let lobe = BlinnPhong::<f64, CommonNormalization>::with_normalization(Rgb::splat(1.0), Shininess(8.0));
-//! let albedo = directional_albedo(&lobe, Vec3::new(0.0, 0.0, 1.0));
-//! assert!((albedo.value.g - 1.075).abs() < 1e-6);
+//! let (alpha, white) = (Alpha(0.8), Schlick::new(Rgb::splat(1.0)));
+//! let v = Vec3::new(0.6, 0.0, 0.8);
+//! // A rough white metal in a white world should vanish. Reflecting once, it is grey.
+//! let once = Microfacet::new(Ggx::new(alpha), SmithCorrelated, white);
+//! assert!(directional_albedo(&once, v).value.g < 0.6);
+//! // With the light of further reflections it is white.
+//! let metal: KullaConty<_, f64> = KullaConty::new(alpha, white);
+//! assert!((directional_albedo(&metal, v).value.g - 1.0).abs() < 1e-3);
 //! ```
+//!
+//! | to know | call | right to |
+//! |---|---|---|
+//! | `E(v)` of any lobe | [`directional_albedo`] | its own estimate; short of points for `α < 0.01` near the horizon |
+//! | `E(v)` of a microfacet lobe | [`microfacet_albedo`] | 1e-6 for `α` from 1e-4 to 1 at any view |
+//! | `E` of light from everywhere | [`average_albedo`] | as what it is given |
+//! | whether `G` belongs to `D` | [`weak_white_furnace`] | 1e-6 |
+//! | `E(μ)` of GGX, quickly, in any number type | [`GgxFit`], [`GgxTable`] | 5e-4, 1.5e-3 |
+//!
+//! | to keep the light | | reciprocal | a white one is white to |
+//! |---|---|---|---|
+//! | metals and dielectrics | [`KullaConty`] | to the last bit | 6e-4 |
+//! | the same, cheaper | [`Turquin`] | no | 1.2e-3 |
+//! | Schlick's term over a diffuse base | [`FdezAguera`] | no | 7e-3 |
+//! | a dielectric over a diffuse base | [`CoupledDiffuse`] | to the last bit | 7e-3 |
+//! | as engines do it | [`engines`] | no | see there |
 
 #![no_std]
 #![forbid(unsafe_code)]
 
-use lobe::{Brdf, Real, Rgb, Vec3};
+mod albedo;
+#[allow(clippy::approx_constant, reason = "the loss of the roughest along its normal is ln 2")]
+mod baked;
+mod compensation;
+mod corner;
+pub mod engines;
+mod furnace;
+mod ggx;
+mod half_vector;
+mod quadrature;
 
-/// A directional albedo and what is known of its error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Albedo {
-    /// `E(v)`, per channel: the fraction of a uniform white world that is reflected to `v`.
-    pub value: Rgb<f64>,
-    /// The largest difference of a channel to the next coarser quadrature: an estimate from above.
-    pub error: f64,
-}
-
-/// A lobe with its directions exchanged: `f(l, v)` becomes `f(v, l)`. For a reciprocal lobe, the lobe itself.
-///
-/// The directional albedo of `Exchanged(lobe)` at `l` is the part of the light from `l` that is reflected anywhere.
-/// The lecture's highlights, which are not reciprocal, may conserve energy in one sense and gain it in the other.
-///
-/// ```
-/// use lobe::{Rgb, Shininess, Vec3, illumination::PhongHighlight};
-/// use lobe_energy::{Exchanged, directional_albedo};
-///
-/// let highlight = PhongHighlight::new(Rgb::splat(1.0), Shininess(8.0));
-/// let grazing = Vec3::new((1.0_f64 - 0.01 * 0.01).sqrt(), 0.0, 0.01);
-/// assert!(directional_albedo(&highlight, grazing).value.g < 0.2);
-/// assert!(directional_albedo(&Exchanged(&highlight), grazing).value.g > 2.0);
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Exchanged<B>(pub B);
-
-impl<R: Real, B: Brdf<R>> Brdf<R> for Exchanged<B> {
-    fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        self.0.eval(v, l)
-    }
-}
-
-/// The directional albedo `E(v) = ∫ f_r(l, v) (n·l) dω_l` over the upper hemisphere.
-///
-/// For a reciprocal lobe it is also the part of the light from `v` that is reflected anywhere; for one that is not,
-/// that is the albedo of [`Exchanged`].
-///
-/// `v` is a unit vector in the local frame, `v.z > 0`; from below the horizon the albedo is 0.
-///
-/// The integral is taken in polar coordinates around the mirror direction of `v`, with a logarithmic radius, so that
-/// lobes of any sharpness up to q = 10⁶ are met with the same number of points; each circle is cut exactly at the
-/// horizon. Sixteen-point Gauss-Legendre panels are halved until two results agree to 1e-7 or 2²¹ points are spent:
-/// see [`Albedo::error`].
-pub fn directional_albedo<B: Brdf<f64> + ?Sized>(brdf: &B, v: Vec3<f64>) -> Albedo {
-    directional_albedo_to(AGREEMENT, brdf, v)
-}
-
-/// [`directional_albedo`], but the panels are halved only until two results agree to `agreement`, an absolute difference
-/// of albedos. Each halving that is saved is three quarters of the points: a lobe with edges, such as those of
-/// V-cavities, takes many.
-pub fn directional_albedo_to<B: Brdf<f64> + ?Sized>(agreement: f64, brdf: &B, v: Vec3<f64>) -> Albedo {
-    let mut coarse = integrate(brdf, v, 1);
-    let mut error = f64::INFINITY;
-    for refinement in [2, 4, 8, 16] {
-        let fine = integrate(brdf, v, refinement);
-        error = largest(fine - coarse);
-        coarse = fine;
-        // A NaN ends it too: finer points would not mend it.
-        if error.partial_cmp(&agreement) != Some(core::cmp::Ordering::Greater) {
-            break;
-        }
-    }
-    Albedo { value: coarse, error }
-}
-
-/// Two quadratures that agree to this are enough for an albedo that is shown with four digits.
-const AGREEMENT: f64 = 1e-7;
-
-/// The largest magnitude of a channel; NaN if one is.
-fn largest(difference: Rgb<f64>) -> f64 {
-    let (r, g, b) = (difference.r.abs(), difference.g.abs(), difference.b.abs());
-    Real::max(Real::max(r, g), b) + 0.0 * (r + g + b)
-}
-
-/// One quadrature; `refinement` multiplies the number of panels in both directions.
-fn integrate<B: Brdf<f64> + ?Sized>(brdf: &B, v: Vec3<f64>, refinement: u32) -> Rgb<f64> {
-    // The mirror direction of `v` is the pole; `up` is the direction on its circle that rises steepest.
-    let pole = Vec3::new(-v.x, -v.y, v.z);
-    let sin_pole = libm::sqrt(v.x * v.x + v.y * v.y);
-    let (ux, uy) = if sin_pole > 0.0 { (v.x / sin_pole, v.y / sin_pole) } else { (1.0, 0.0) };
-    let up = Vec3::new(ux * v.z, uy * v.z, sin_pole);
-    let side = pole.cross(up);
-    // Where the circle around the pole first meets the horizon, and where it has gone below.
-    let elevation = libm::atan2(v.z, sin_pole);
-    let last = core::f64::consts::PI - elevation;
-
-    let circle = |radius: f64| -> Rgb<f64> {
-        let (sin, cos) = Real::sin_cos(radius);
-        // z = cos·pole.z + sin·cos φ·up.z > 0 for |φ| < half.
-        let rising = -cos * pole.z / (sin * sin_pole);
-        let half = if rising < -1.0 || sin * sin_pole == 0.0 {
-            core::f64::consts::PI
-        } else {
-            libm::acos(Real::min(rising, 1.0))
-        };
-        let arc = panels(-half, half, 4 * refinement, |phi| {
-            let (sin_phi, cos_phi) = Real::sin_cos(phi);
-            let l = pole * cos + (up * cos_phi + side * sin_phi) * sin;
-            brdf.eval_cos(l, v)
-        });
-        arc * sin
-    };
-
-    // [0, 1e-8] in one step; from there in panels of equal ratio up to the horizon's first touch.
-    let touch = Real::max(elevation, SMALLEST_RADIUS);
-    let inner = panels(0.0, SMALLEST_RADIUS, 1, circle)
-        + logarithmic(SMALLEST_RADIUS, 0.5 * touch, refinement, circle)
-        + up_to(touch, 0.5 * touch, refinement, circle);
-    // Then the arc shrinks like a square root at both ends; radius = end ± w² makes it smooth. A lobe around the
-    // mirror direction ends at a right angle, which is always in between.
-    let right_angle = core::f64::consts::FRAC_PI_2;
-    let middle = 0.5 * (touch + right_angle);
-    let shrinking = |w: f64| circle(touch + w * w) * (2.0 * w);
-    let vanishing = |w: f64| circle(last - w * w) * (2.0 * w);
-    inner
-        + panels(0.0, SMALLEST_RADIUS, 1, shrinking)
-        + logarithmic(SMALLEST_RADIUS, libm::sqrt(Real::max(middle - touch, 0.0)), refinement, shrinking)
-        + up_to(right_angle, right_angle - middle, refinement, circle)
-        + panels(0.0, libm::sqrt(Real::max(last - right_angle, 0.0)), 2 * refinement, vanishing)
-}
-
-/// `∫ f` over the last `length` before `end`, where `f` may behave like a root of the distance: `cos^q` with `q` below
-/// 1 does. With the distance `y⁴` it is smooth.
-fn up_to(end: f64, length: f64, refinement: u32, f: impl Fn(f64) -> Rgb<f64>) -> Rgb<f64> {
-    let root = libm::sqrt(libm::sqrt(Real::max(length, 0.0)));
-    panels(0.0, root, refinement, |y| f(end - y * y * y * y) * (4.0 * y * y * y))
-}
-
-/// Inside this angle around the mirror direction, in radians, the sharpest lobe of the domain holds 1e-9 of its light.
-const SMALLEST_RADIUS: f64 = 1e-8;
-
-/// `∫ f` from `from` to `to`, in panels of equal ratio.
-fn logarithmic(from: f64, to: f64, refinement: u32, f: impl Fn(f64) -> Rgb<f64>) -> Rgb<f64> {
-    if to <= from {
-        return Rgb::splat(0.0);
-    }
-    let (first, last) = (libm::log(from), libm::log(to));
-    let count = (libm::ceil((last - first) / 3.0) as u32).max(1) * refinement;
-    panels(first, last, count, |t| {
-        let x = libm::exp(t);
-        f(x) * x
-    })
-}
-
-/// `∫ f` from `from` to `to`, with `count` panels of sixteen Gauss-Legendre points.
-fn panels(from: f64, to: f64, count: u32, f: impl Fn(f64) -> Rgb<f64>) -> Rgb<f64> {
-    let half = (to - from) / (2.0 * f64::from(count));
-    let mut sum = Rgb::splat(0.0);
-    for panel in 0..count {
-        let centre = from + half * (2.0 * f64::from(panel) + 1.0);
-        for (node, weight) in GAUSS_LEGENDRE_16 {
-            sum = sum + (f(centre - half * node) + f(centre + half * node)) * weight;
-        }
-    }
-    sum * half
-}
-
-/// The positive nodes of the sixteen-point rule on [−1, 1] and their weights.
-const GAUSS_LEGENDRE_16: [(f64, f64); 8] = [
-    (0.095_012_509_837_637_44, 0.189_450_610_455_068_50),
-    (0.281_603_550_779_258_91, 0.182_603_415_044_923_59),
-    (0.458_016_777_657_227_39, 0.169_156_519_395_002_54),
-    (0.617_876_244_402_643_75, 0.149_595_988_816_576_73),
-    (0.755_404_408_355_003_03, 0.124_628_971_255_533_87),
-    (0.865_631_202_387_831_74, 0.095_158_511_682_492_78),
-    (0.944_575_023_073_232_58, 0.062_253_523_938_647_89),
-    (0.989_400_934_991_649_93, 0.027_152_459_411_754_09),
-];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
-    use lobe::{BlinnPhong, CommonNormalization, Lambert, Phong, Shininess};
-
-    const UP: Vec3<f64> = Vec3 { x: 0.0, y: 0.0, z: 1.0 };
-    const WHITE: Rgb<f64> = Rgb::splat(1.0);
-    const EXPONENTS: [f64; 12] = [0.0, 0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 32.0, 1e2, 1e3, 1e4, 1e6];
-
-    fn at(degrees: f64) -> Vec3<f64> {
-        let (sin, cos) = libm::sincos(degrees.to_radians());
-        Vec3::new(sin, 0.0, cos)
-    }
-
-    fn albedo(brdf: &dyn Brdf<f64>, v: Vec3<f64>) -> f64 {
-        let albedo = directional_albedo(brdf, v);
-        assert!(albedo.error < 1e-6, "{albedo:?} at {v:?}");
-        albedo.value.g
-    }
-
-    #[test]
-    fn lambert_reflects_its_albedo_from_everywhere() {
-        for degrees in [0.0, 1.0, 30.0, 45.0, 60.0, 85.0, 89.9, 89.9999] {
-            let error = albedo(&Lambert::new(Rgb::splat(0.7)), at(degrees)) - 0.7;
-            assert!(error.abs() < 1e-9, "{degrees}: {error}");
-        }
-    }
-
-    #[test]
-    fn the_closed_forms_hold_at_normal_incidence() {
-        for q in EXPONENTS {
-            let common = (q + 8.0) * (libm::exp2(-q / 2.0) + q) / ((q + 2.0) * (q + 4.0));
-            let torrance = 8.0 * (1.0 - libm::exp2(-(q + 2.0) / 2.0)) / (q + 2.0);
-            let q = Shininess(q);
-            let lobes: [(&str, &dyn Brdf<f64>, f64); 5] = [
-                ("phong", &Phong::new(WHITE, q), 1.0),
-                ("blinn-phong", &BlinnPhong::new(WHITE, q), 1.0),
-                (
-                    "common",
-                    &BlinnPhong::<f64, CommonNormalization>::with_normalization(WHITE, q),
-                    if q.0 == 0.0 { 1.0 } else { common },
-                ),
-                ("highlight", &PhongHighlight::new(WHITE, q), 2.0 / (q.0 + 1.0)),
-                ("torrance highlight", &BlinnTorranceHighlight::new(WHITE, q), torrance),
-            ];
-            for (name, lobe, exact) in lobes {
-                let error = albedo(lobe, UP) / exact - 1.0;
-                assert!(error.abs() < 2e-8, "{name}, {q:?}: {error:e}");
-            }
-        }
-    }
-
-    /// The two normalised lobes never reflect more than they receive.
-    #[test]
-    fn normalised_lobes_conserve_energy_at_every_angle() {
-        for q in EXPONENTS.map(Shininess) {
-            for degrees in [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0, 89.0] {
-                let (phong, blinn) = (Phong::new(WHITE, q), BlinnPhong::new(WHITE, q));
-                assert!(albedo(&phong, at(degrees)) < 1.0 + 1e-7, "phong {q:?} {degrees}");
-                assert!(albedo(&blinn, at(degrees)) < 1.0 + 1e-7, "blinn-phong {q:?} {degrees}");
-            }
-        }
-    }
-
-    /// By how much the lecture's equation fails as a BRDF: it sends out more than it receives.
-    #[test]
-    fn the_lecture_gains_energy() {
-        let lecture = lobe::illumination::Phong { ka: WHITE, kd: WHITE, ks: WHITE, q: Shininess(1.0) };
-        // Without the 1/π of `lobes()`: 2π for k_d = k_s = 1, q = 1.
-        let as_it_stands = albedo(&lecture.lobes(), UP) * core::f64::consts::PI;
-        assert!((as_it_stands - core::f64::consts::TAU).abs() < 1e-6, "{as_it_stands}");
-        // And it loses no energy towards the horizon, where a BRDF must: the cosine is missing.
-        let sharp = PhongHighlight::new(WHITE, Shininess(1.0));
-        assert!(albedo(&sharp, at(60.0)) > 0.75);
-    }
-
-    #[test]
-    fn a_nan_ends_the_quadrature_and_shows() {
-        let broken = Lambert::new(Rgb::new(f64::NAN, 0.5, 0.5));
-        let albedo = directional_albedo(&broken, UP);
-        assert!(albedo.value.r.is_nan() && albedo.error.is_nan());
-    }
-}
+pub use albedo::{Albedo, Exchanged, directional_albedo, directional_albedo_to};
+pub use compensation::{CoupledDiffuse, FdezAguera, KullaConty, Turquin, average_fresnel};
+pub use corner::Corner;
+pub use furnace::{masking, weak_white_furnace};
+pub use ggx::{GgxAlbedo, GgxFit, GgxTable};
+pub use half_vector::{average_albedo, microfacet_albedo, microfacet_albedo_to};

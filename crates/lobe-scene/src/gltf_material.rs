@@ -5,6 +5,7 @@ use crate::texture::Map;
 use glam::{Vec2, Vec3};
 use lobe::batch::Kernel;
 use lobe::{Alpha, Black, Brdf, Clearcoat, MetallicRoughness, Real, Rgb, SheenLayer};
+use lobe_energy::engines::{KarisMobile, SplitSum};
 
 /// The numbers of a material. The defaults are those of the specification: without an extension it leaves no trace.
 #[derive(Debug, Clone, PartialEq)]
@@ -432,12 +433,9 @@ impl GltfMaterial {
 
 /// The albedo of a microfacet lobe as `F0 · scale + bias`.
 fn albedo(alpha: f32, cos: f32) -> (f32, f32) {
-    let roughness = alpha.sqrt();
-    let [x, y, z, w] =
-        [1.0 - roughness, 0.0425 - 0.0275 * roughness, 1.04 - 0.572 * roughness, 0.022 * roughness - 0.04];
-    let a = (x * x).min((-9.28 * cos).exp2()) * x + y;
+    let split = KarisMobile.split(Alpha(alpha), cos);
     // The fit goes a little below 0 at some angles, and a surface never takes light away.
-    ((z - 1.04 * a).max(0.0), (w + 1.04 * a).max(0.0))
+    (split.scale.max(0.0), split.bias.max(0.0))
 }
 
 /// How many parameters [`Plain`] has.
