@@ -65,6 +65,9 @@ pub(crate) enum Command {
     /// Time every model in every number type, beside the error that is seen
     #[command(after_help = TRADE_HELP)]
     Trade(TradeArgs),
+    /// Put the published formulas of engines through furnaces
+    #[command(after_help = AUDIT_HELP)]
+    Audit(AuditArgs),
     /// Hold every model to its error bound at the extremes of its domain
     #[command(after_help = VERIFY_HELP)]
     Verify(VerifyArgs),
@@ -553,6 +556,30 @@ fn parse_budget(text: &str) -> Result<f64, String> {
         _ => Err("a part of white from 0 to 1, such as 1/255 or 0.01".to_owned()),
     }
 }
+
+/// `lobe audit`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct AuditArgs {
+    /// A few roughnesses and views, in some seconds
+    #[arg(long)]
+    pub(crate) fast: bool,
+    /// Write the tables as a page in Markdown
+    #[arg(long, value_name = "FILE")]
+    pub(crate) markdown: Option<PathBuf>,
+    /// Write a plot of the white furnace of each engine into this folder
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) svg: Option<PathBuf>,
+}
+
+const AUDIT_HELP: &str = "\
+The formulas for direct light of Filament, bevy, three.js, Unreal, Godot, Unity's URP, MaterialX and the glTF sample viewer, as
+they are published, in f64: what a white metal and a white dielectric reflect in a white world, how far f(l, v) is from
+f(v, l), and how far gold is from GGX with Smith's correlated masking and Schlick's term.
+
+Examples:
+  lobe audit
+  lobe audit --fast --json
+  lobe audit --markdown audit.md --svg audit";
 
 /// `lobe verify`.
 #[derive(Debug, ArgsOf)]

@@ -1,9 +1,10 @@
-//! The command `lobe`: report, render, diff, plot, eval, models, sweep, trade and verify.
+//! The command `lobe`: report, render, diff, plot, eval, models, sweep, trade, verify and audit.
 //!
 //! The program is this library and a `main` of one line, so that tests and fuzz targets can call the parsers:
 //! [`spec::parse`] for BRDFs in JSON, [`eval::parse_line`] for pairs of directions in CSV.
 
 mod args;
+mod audit;
 mod contact;
 mod diff;
 pub mod error;
@@ -43,6 +44,7 @@ pub fn main() -> ExitCode {
 
 fn run(args: &Args) -> Result<(), Failure> {
     match &args.command {
+        Some(Command::Audit(audit)) => audit::run(audit, args.quiet, args.json),
         Some(Command::Diff(diff)) => diff::run(diff, args.quiet, args.json),
         Some(Command::Eval(eval)) => eval::run(eval, args.quiet, args.json),
         Some(Command::Models(models)) => models::run(models, args.json),

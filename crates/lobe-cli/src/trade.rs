@@ -421,7 +421,7 @@ pub(crate) fn dots(rows: &[Row]) -> Vec<Dot> {
 }
 
 /// The name of the plot of a subject.
-fn file_name(subject: &str) -> std::path::PathBuf {
+pub(crate) fn file_name(subject: &str) -> std::path::PathBuf {
     let safe: String = subject.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     Path::new(&safe).with_extension("svg")
 }

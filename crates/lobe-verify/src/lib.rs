@@ -6,6 +6,7 @@
 //! assert_eq!(ulps_between(1.0_f32, 1.0 + f64::from(f32::EPSILON)), 1.0);
 //! ```
 
+pub mod audit;
 pub mod comparison;
 pub mod extremes;
 pub mod mediump;

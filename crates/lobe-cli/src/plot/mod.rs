@@ -1,5 +1,6 @@
 //! `lobe plot`: lobes as SVG.
 
+mod albedo;
 mod chart;
 mod compare;
 mod curve;
@@ -10,6 +11,7 @@ mod surface;
 pub(crate) mod svg;
 mod terms;
 
+pub(crate) use albedo::albedo_curves;
 pub(crate) use compare::{compare, compare_panel};
 pub(crate) use curve::{curve, slices};
 pub(crate) use image::image;
