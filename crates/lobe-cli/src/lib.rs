@@ -14,6 +14,7 @@ mod models;
 mod output;
 mod plot;
 mod progress;
+mod properties;
 mod render;
 mod report;
 pub mod spec;

@@ -1,9 +1,10 @@
-//! `lobe verify`: every model against `f64`, at the extremes of its domain.
+//! `lobe verify`: what any BRDF must have, see [`crate::properties`]; every model against `f64`, at the extremes of its domain.
 
 use crate::args::VerifyArgs;
 use crate::error::Failure;
 use crate::output;
 use crate::progress::Progress;
+use crate::properties;
 use lobe_models::{Bound, Model, models};
 use lobe_verify::comparison::{WIDTHS_IN_HALF, compare_in_half};
 use lobe_verify::extremes::{Case, Effort, Outcome, TARGET_99};
@@ -19,6 +20,21 @@ pub(crate) fn run(args: &VerifyArgs, quiet: bool, json: bool) -> Result<(), Fail
     if args.terms {
         return terms(args.fast, json);
     }
+    if let Some(spec) = &args.brdf {
+        return properties::brdf(spec, args.fast, json);
+    }
+    if let Some(file) = &args.table {
+        return properties::table(file, json);
+    }
+    if !args.program.is_empty() {
+        return properties::program(&args.program, args.fast, json);
+    }
+    if args.certificates {
+        return properties::certificates_alone(args.fast, quiet, json);
+    }
+    if args.mutants {
+        return properties::mutants_alone(args.fast, json);
+    }
     let chosen: Vec<&'static Model> =
         models().filter(|model| args.model.as_deref().is_none_or(|name| name == model.name)).collect();
     if chosen.is_empty() {
@@ -28,6 +44,9 @@ pub(crate) fn run(args: &VerifyArgs, quiet: bool, json: bool) -> Result<(), Fail
     }
     if args.half {
         return mediump(&chosen, args.model.is_none(), quiet, json);
+    }
+    if !args.extremes {
+        return properties::everything(args.model.as_deref(), args.fast, quiet, json);
     }
     let effort = if args.fast { Effort::QUICK } else { Effort::FULL };
     extremes(&chosen, effort, quiet, json)

@@ -97,3 +97,64 @@ pub fn reflectance() -> impl Strategy<Value = [f32; 3]> {
     let channel = prop_oneof![4 => 0.0_f32..=1.0, 1 => Just(0.0), 1 => Just(1.0), 1 => Just(1e-6_f32)];
     proptest::array::uniform3(channel)
 }
+
+/// The smallest width that lobes are declared for.
+const LEAST_ALPHA: f32 = 1e-4;
+
+/// A width `α`, [1e-4, 1]: even over the orders of magnitude, and the ends.
+pub fn alpha() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        4 => (-4.0_f64..0.0).prop_map(|e| (10_f64.powf(e) as f32).clamp(LEAST_ALPHA, 1.0)),
+        2 => 0.1_f32..=1.0,
+        1 => Just(LEAST_ALPHA),
+        1 => Just(1.0_f32),
+    ]
+}
+
+/// Two widths, one along the tangent and one along the bitangent: equal, or up to 16 times apart.
+pub fn alphas() -> impl Strategy<Value = (f32, f32)> {
+    let other = (alpha(), -4.0_f64..4.0).prop_map(|(x, e)| {
+        let y = (f64::from(x) * e.exp2()) as f32;
+        (x, y.clamp(LEAST_ALPHA, 1.0))
+    });
+    prop_oneof![1 => alpha().prop_map(|x| (x, x)), 3 => other]
+}
+
+/// A refractive index `η`, [1, 4]: next to 1, glass, and semiconductors.
+pub fn ior() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        1 => Just(1.0_f32),
+        1 => (-6.0_f64..-1.0).prop_map(|e| (1.0 + 10_f64.powf(e)) as f32),
+        4 => 1.0_f32..=4.0,
+        1 => Just(1.5_f32),
+        1 => Just(4.0_f32),
+    ]
+}
+
+/// An albedo, [0, 1] in each channel: even, black, white, and next to either.
+pub fn albedo() -> impl Strategy<Value = [f32; 3]> {
+    let channel = prop_oneof![
+        4 => 0.0_f32..=1.0,
+        1 => Just(0.0_f32),
+        1 => Just(1.0_f32),
+        1 => (-7.0_f64..0.0).prop_map(|e| 10_f64.powf(e) as f32),
+        1 => (-7.0_f64..0.0).prop_map(|e| (1.0 - 10_f64.powf(e)) as f32),
+    ];
+    proptest::array::uniform3(channel)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn all_are_inside_their_domains(a in alpha(), (x, y) in alphas(), eta in ior(), rho in albedo()) {
+            for alpha in [a, x, y] {
+                prop_assert!((LEAST_ALPHA..=1.0).contains(&alpha));
+            }
+            prop_assert!((1.0..=4.0).contains(&eta));
+            prop_assert!(rho.iter().all(|x| (0.0..=1.0).contains(x)));
+        }
+    }
+}

@@ -46,13 +46,13 @@ pub(crate) const COUNT: u64 = 5;
 
 /// A row of the tables: a model, and a word of it that is not the default one.
 #[derive(Clone, Copy, Debug)]
-struct Variant {
+pub(crate) struct Variant {
     model: &'static Model,
     word: Option<(&'static str, &'static str)>,
 }
 
 /// Every model, once with its default words and once with each other word.
-fn variants() -> Vec<Variant> {
+pub(crate) fn variants() -> Vec<Variant> {
     models()
         .flat_map(|model| {
             let other_words = model.parameters.iter().flat_map(|parameter| {
@@ -70,7 +70,7 @@ fn variants() -> Vec<Variant> {
 
 /// How sharp a lobe is in the checks: the exponent where the model has one, the width where it has that.
 #[derive(Clone, Copy, Debug)]
-struct Level {
+pub(crate) struct Level {
     q: f64,
     alpha: f64,
     /// Where in its range any other number is, and how large a colour that is no weight.
@@ -78,7 +78,7 @@ struct Level {
 }
 
 /// From the widest to the sharpest. The numbers are those of f32, so that both number types are given the same lobe.
-const LEVELS: [Level; 7] = [
+pub(crate) const LEVELS: [Level; 7] = [
     Level { q: 0.0, alpha: 1.0, part: 0.0 },
     Level { q: 1.0, alpha: 0.5, part: 1.0 },
     Level { q: 8.0, alpha: 0.25, part: 0.5 },
@@ -89,7 +89,11 @@ const LEVELS: [Level; 7] = [
 ];
 
 impl Variant {
-    fn name(&self) -> String {
+    pub(crate) fn model(&self) -> &'static Model {
+        self.model
+    }
+
+    pub(crate) fn name(&self) -> String {
         match self.word {
             Some((_, word)) => format!("{} ({word})", self.model.name),
             None => self.model.name.to_owned(),
@@ -97,7 +101,7 @@ impl Variant {
     }
 
     /// With weights of 1. `None` if the model refuses: then it is left out at this level.
-    fn at(&self, level: Level) -> Option<Lobe> {
+    pub(crate) fn at(&self, level: Level) -> Option<Lobe> {
         let in_f32 = |x: f64| f64::from(x as f32);
         let values: Vec<(&str, Value)> = self
             .model
@@ -152,7 +156,7 @@ impl Variant {
     }
 
     /// Whether it is said to reflect at most what arrives.
-    fn conserves(&self) -> bool {
+    pub(crate) fn conserves(&self) -> bool {
         match self.model.name {
             "lambert" | "phong" => true,
             // With Smith's masking, which follows from the distribution, or that of V-cavities. The approximations of

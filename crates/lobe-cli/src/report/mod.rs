@@ -1,6 +1,6 @@
 //! `lobe report`: renders, plots and checks, and writes it all into one page.
 
-mod checks;
+pub(crate) mod checks;
 mod materials;
 mod page;
 mod pictures;

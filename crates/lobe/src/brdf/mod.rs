@@ -16,7 +16,7 @@
 //! | [`ShiftedGamma`] | facets, every channel fitted apart | to the last bit | as fitted |
 //! | [`Microfacet`] | `D F G/(4 (n·l)(n·v))` of any terms | to the last bit | by its terms: at most 1 with Smith's masking |
 //! | [`CookTorrance`], [`Blinn1977`] | microfacets with the factors of their papers | to the last bit | gain, by `4/π` and without bound |
-//! | [`OrenNayar`], [`OrenNayarQualitative`], [`Eon`] | rough diffuse | to the last bit | lose; the last keeps `ρ = 1` |
+//! | [`OrenNayar`], [`OrenNayarQualitative`], [`Eon`] | rough diffuse | to the last bit | lose, the first two gain up to 5 % at grazing views for `σ ≈ 0.3`; the last keeps `ρ = 1` |
 //! | [`BurleyDiffuse`], [`Minnaert`] | diffuse, by eye | to the last bit | gain towards the horizon |
 //! | [`Charlie`] | sheen | to the last bit | gains for a roughness below 0.17 |
 //! | [`MetallicRoughness`] | glTF 2.0 | to the last bit | at most 1 but for grazing light |

@@ -12,7 +12,8 @@ use core::f64::consts::{FRAC_1_PI, FRAC_2_PI};
 /// normal, and `Δφ` the azimuth between the directions.
 ///
 /// Oren and Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994, equation 30: V-cavities of Lambertian
-/// facets whose slopes' angles have the standard deviation `σ`. Without interreflections, and with a loss of energy.
+/// facets whose slopes' angles have the standard deviation `σ`. Without interreflections: it loses energy, but for small
+/// `σ` at grazing views, where it gains (1.5 % with `σ = 0.2` at 89.9°).
 ///
 /// Reciprocal to the last bit. Domain: `ρ ∈ [0, 1]`, `σ ∈ [0, π/2]` radians. Lambert's for `σ = 0`. Error against `f64` of
 /// the same inputs: 4e-6.

@@ -22,7 +22,7 @@ use core::f64::consts::TAU;
 /// `|δf/f| ≤ u (7 + 6.5 L + 5 q (1/c − 1))` for `c ≥ 2⁻¹²`. For `q ≥ L`, that is wherever a sharp lobe is visible,
 /// `q (1/c − 1) ≤ 1.72 L`: the error grows with `L` alone, not with `q`. Derivation and test: `docs/numerics.md`.
 ///
-/// Values below 2⁻¹²⁶ of the peak are 0.
+/// Values below 2⁻¹²⁶ of the peak are 0. For `q = 0` there is an edge where `r·v` is 0: up to there the power is 1.
 ///
 /// ```
 /// use lobe::{Brdf, Phong, Rgb, Shininess, Vec3};
