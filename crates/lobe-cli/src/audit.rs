@@ -4,6 +4,7 @@ use crate::args::AuditArgs;
 use crate::error::Failure;
 use crate::output;
 use crate::plot::albedo_curves;
+use crate::plot::svg::{SERIES, label};
 use crate::progress::Progress;
 use crate::trade::file_name;
 use lobe_scene::check_writable;
@@ -39,8 +40,19 @@ pub(crate) fn run(args: &AuditArgs, quiet: bool, json: bool) -> Result<(), Failu
     output::print(table(&found).as_bytes())
 }
 
+/// The white furnace, for some of the roughnesses: as many as there are lines, evenly, and the last one.
 fn plot(audit: &Audit) -> String {
-    albedo_curves(&format!("White metal in a white world: {}", audit.engine.name), &audit.curves).file()
+    let step = audit.curves.len().div_ceil(SERIES).max(1);
+    let mut shown: Vec<_> = audit.curves.iter().rev().step_by(step).collect();
+    shown.reverse();
+    let curves: Vec<_> = shown
+        .into_iter()
+        .map(|(roughness, curve)| {
+            let points = curve.iter().rev().map(|&(n_dot_v, albedo)| (n_dot_v.min(1.0).acos().to_degrees(), albedo));
+            (format!("roughness {}", label(*roughness)), points.collect())
+        })
+        .collect();
+    albedo_curves(&format!("White metal in a white world: {}", audit.engine.name), &curves).file()
 }
 
 fn table(found: &[Audit]) -> String {

@@ -1,5 +1,6 @@
 //! The scene's materials: what they are made of, and how much light they reflect.
 
+use super::furnace::{self, Curve};
 use lobe::{Brdf, Rgb, Vec3};
 use lobe_energy::{Albedo, Exchanged, directional_albedo_to};
 use lobe_scene::image::Display;
@@ -73,6 +74,12 @@ pub(crate) struct MaterialFacts {
     /// A PNG file of a sphere of it.
     #[serde(skip)]
     pub(crate) ball: Option<Vec<u8>>,
+    /// The albedo over the angle of the view, in degrees.
+    #[serde(skip)]
+    pub(crate) curve: Curve,
+    /// A PNG file of a sphere of it in a white world.
+    #[serde(skip)]
+    pub(crate) furnace: Option<Vec<u8>>,
 }
 
 /// The pixels of a sphere, to both sides.
@@ -85,9 +92,10 @@ const MOST_BYTES: usize = 500_000;
 pub(crate) fn keep_the_first_balls(materials: &mut [MaterialFacts]) {
     let mut bytes = 0;
     for material in materials {
-        bytes += material.ball.as_ref().map_or(0, Vec::len);
+        bytes += [&material.ball, &material.furnace].into_iter().flatten().map(Vec::len).sum::<usize>();
         if bytes > MOST_BYTES {
             material.ball = None;
+            material.furnace = None;
         }
     }
 }
@@ -220,6 +228,8 @@ fn one(shown: &Shown<'_>) -> MaterialFacts {
     }
     // The tolerance is that of the quadrature; coefficients that were rounded to f32 are below it.
     let gains_energy = highest.1 > 1.0 + QUADRATURE_ERROR;
+    let mut curve: Curve = TRIED.into_iter().zip(seen.iter().copied()).collect();
+    curve.sort_by(|a, b| a.0.total_cmp(&b.0));
     MaterialFacts {
         name: material.name.clone(),
         views: shown.views.clone(),
@@ -232,6 +242,8 @@ fn one(shown: &Shown<'_>) -> MaterialFacts {
         verdict: verdict(known, &highest, gains_energy, &lobes),
         reasons: material.reasons(),
         ball: ball(material),
+        furnace: furnace::picture(&curve),
+        curve,
         highest_at: highest.0,
         lobes,
     }

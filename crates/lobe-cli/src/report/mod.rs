@@ -1,6 +1,7 @@
 //! `lobe report`: renders, plots and checks, and writes it all into one page.
 
 pub(crate) mod checks;
+mod furnace;
 mod materials;
 mod page;
 mod pictures;
@@ -115,7 +116,8 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
     let trade = trade::measure(&scene, quiet);
     let trade_seconds = start_trade.elapsed().as_secs_f64();
 
-    let plots = plots(&shown);
+    let mut plots = plots(&shown);
+    plots.extend(albedo_plot(&materials));
     let warnings = scene.warnings.iter().map(ToString::to_string).chain(more_warnings).collect();
     let total = start.elapsed().as_secs_f64();
     let facts = Facts {
@@ -246,6 +248,30 @@ fn scene_curves(shown: &[Shown<'_>]) -> Option<Plot> {
         "The scene's materials over the viewing angle",
         format!("On a logarithmic scale, light at 55°: the diffuse floor and the highlight on it.{left_out}"),
         plot::curve(&series, Setting { incidence: 55.0, cosine: false, log: true }),
+    ))
+}
+
+/// The albedo of the scene's materials over the angle of the view: of each the largest of red, green and blue.
+fn albedo_plot(materials: &[MaterialFacts]) -> Option<Plot> {
+    let known: Vec<_> = materials.iter().filter(|material| !material.curve.is_empty()).collect();
+    let largest = |rgb: &[f64; 3]| rgb.iter().fold(0.0_f64, |max, &x| max.max(x));
+    let curves: Vec<(String, Vec<(f64, f64)>)> = spread(&known)
+        .map(|material| {
+            let points = material.curve.iter().map(|(angle, rgb)| (*angle, largest(rgb)));
+            (material.name.clone(), points.collect())
+        })
+        .collect();
+    if curves.is_empty() {
+        return None;
+    }
+    let left_out = match known.len() - curves.len() {
+        0 => String::new(),
+        more => format!(" {more} more materials are not shown."),
+    };
+    Some(Plot::new(
+        "What the materials reflect of a white world",
+        format!("The directional albedo. Above 1 a surface sends out more than it receives.{left_out}"),
+        plot::albedo_curves("Albedo over the angle of the view", &curves),
     ))
 }
 

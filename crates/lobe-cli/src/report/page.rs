@@ -1,6 +1,7 @@
 //! The page: one HTML file that needs no other, for light and dark, wide and narrow, screen and paper.
 
 use super::checks::Check;
+use super::furnace::SIDE;
 use super::materials::{BALL, LobeFacts, MaterialFacts, SHOWN};
 use super::pictures::Picture;
 use super::trade::{BUDGET, EFFORT, Trade};
@@ -197,8 +198,10 @@ fn materials(page: &mut String, materials: &[MaterialFacts]) {
         "<section id=\"materials\">\n<h2>The materials</h2>\n<p>The directional albedo is what one sees of a uniform white world \
          from that angle, measured from the normal; the largest of red, green and blue is shown. Above 1 a surface sends out \
          more than it receives. The verdict also looks at it the other way round, at the part of the light from one direction \
-         that is reflected anywhere: for a BRDF that is the same, for the lecture's highlights it is not. Each sphere is lit from the upper left, and a little from the right.</p>\n\
-         <div class=\"scroll\"><table>\n<thead><tr><th>sphere</th><th>material</th><th>lobes and parameters</th>",
+         that is reflected anywhere: for a BRDF that is the same, for the lecture's highlights it is not. Each sphere is lit from the upper left, and a little from the right. \
+         The furnace is the same sphere in a world that is equally bright everywhere: what reflects all that arrives vanishes there, \
+         what loses light is dark, what gains it bright.</p>\n\
+         <div class=\"scroll\"><table>\n<thead><tr><th>sphere</th><th>furnace</th><th>material</th><th>lobes and parameters</th>",
     );
     for angle in SHOWN {
         let _ = write!(page, "<th class=\"n\">albedo {angle}°</th>");
@@ -209,8 +212,9 @@ fn materials(page: &mut String, materials: &[MaterialFacts]) {
         let lobes = if lobes.is_empty() { "none".to_owned() } else { lobes.join("<br>") };
         let _ = write!(
             page,
-            "<tr><td class=\"ball\">{}</td><th scope=\"row\">{}</th><td class=\"lobes\">{lobes}{}{}</td>",
+            "<tr><td class=\"ball\">{}</td><td class=\"ball\">{}</td><th scope=\"row\">{}</th><td class=\"lobes\">{lobes}{}{}</td>",
             ball(material),
+            in_furnace(material),
             escape(&material.name),
             extras(material),
             why(&material.reasons)
@@ -232,6 +236,13 @@ fn materials(page: &mut String, materials: &[MaterialFacts]) {
 fn ball(material: &MaterialFacts) -> String {
     match &material.ball {
         Some(png) => picture_element(png, (BALL, BALL), &format!("A sphere of {}", material.name)),
+        None => String::new(),
+    }
+}
+
+fn in_furnace(material: &MaterialFacts) -> String {
+    match &material.furnace {
+        Some(png) => picture_element(png, (SIDE, SIDE), &format!("A sphere of {} in a white world", material.name)),
         None => String::new(),
     }
 }

@@ -3,7 +3,7 @@
 //! The integral is taken over the angles of the light, `l = (sin πx cos πy, sin πx sin πy, cos πx)`, so that
 //! `E = π² ∬ f_r cos θ_l sin πx dx dy`. The domain is cut into cells. On a cell with the centre `c` and for parameters
 //! `p` around `p₀` the integrand is `g(c, p₀) + Σ ∂g/∂xᵢ (xᵢ − cᵢ) + Σ ∂g/∂pⱼ (pⱼ − p₀ⱼ)` with derivatives somewhere in
-//! their [`Slopes`]. Integrated over the cell,
+//! their [`Slopes`](super::Slopes). Integrated over the cell,
 //!
 //! - the first is its area times a thin interval;
 //! - of the second, the middle of the slope drops out by symmetry, and its radius `ρ` leaves at most `ρ hᵢ/4` times the

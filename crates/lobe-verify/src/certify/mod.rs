@@ -1,7 +1,7 @@
 //! Certified statements: bounds that hold for *every* direction and parameter of a box, proved by adaptive subdivision.
 //!
 //! A test by samples says that no fault was found. A certificate says that there is none: the box is cut into smaller
-//! ones until, on each, the formula over [`Interval`](crate::interval::Interval) is within its limits (branch and bound;
+//! ones until, on each, the formula over [`Interval`] is within its limits (branch and bound;
 //! Moore, Kearfott and Cloud, *Introduction to Interval Analysis*, 2009, chapters 5 and 9). It is the source of the lobe
 //! itself that is evaluated, so it is the code that is verified, not a copy of its formula.
 //!
