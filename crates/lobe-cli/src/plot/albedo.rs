@@ -11,7 +11,7 @@ const BOTTOM: f64 = 320.0;
 pub(crate) fn albedo_curves(title: &str, curves: &[(String, Vec<(f64, f64)>)]) -> Svg {
     let largest = curves.iter().flat_map(|(_, curve)| curve).fold(1.0, |max: f64, &(_, albedo)| albedo.max(max));
     let scale = Scale::linear(largest);
-    let chart = Chart { left: 66.0, right: 584.0, top: 58.0, bottom: BOTTOM, angles: (0, 90), scale };
+    let chart = Chart { left: 66.0, right: 584.0, top: 70.0, bottom: BOTTOM, angles: (0, 90), scale };
     let mut svg = Svg::new(600.0, BOTTOM + 62.0 + 22.0 * curves.len() as f64, title);
     svg.text("", (6.0, 18.0), Anchor::Start, title);
     chart.axes(&mut svg, "albedo *E*(*v*)", "angle of the view *θ*");
