@@ -467,8 +467,8 @@ fn a_report_is_one_page_that_needs_nothing_else() {
 
     let page = fs::read_to_string(folder.path().join("out/index.html")).expect("a page");
     let images: Vec<&str> = page.split("<img").skip(1).collect();
-    // The view, and a sphere of its one material.
-    assert_eq!(images.len(), 2);
+    // The view, and a sphere of its one material, lit and in a white world.
+    assert_eq!(images.len(), 3);
     assert!(
         images
             .iter()
