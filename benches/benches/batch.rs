@@ -4,12 +4,14 @@
 //! cargo bench -p lobe-benches --bench batch [-- NAME...]
 //! ```
 //!
+//! At the best level of the machine, or at the one that `LOBE_LEVEL` names (`sse4.2`, `avx2`, `avx512`).
+//!
 //! The baseline is the same formula as a plain `f32` loop over the same slices, with `glam` and `powf`, compiled for the
 //! default target, where the compiler vectorises what it can. Each figure is the median of many rounds, in each of which
 //! every contender runs once, over several buffers in turn; the ratio is the median of the rounds' ratios, with its
 //! quartiles.
 
-use lobe::batch::{Batch, Kernel, Level, Shade};
+use lobe::batch::{Batch, Kernel, Level, Shade, levels};
 use lobe::distribution::{Beckmann, Ggx};
 use lobe::fresnel::{Conductor, Schlick};
 use lobe::masking::{RationalBeckmann, SmithCorrelated};
@@ -19,24 +21,24 @@ use lobe::{
     Vec3, Ward,
 };
 use lobe_benches::plain_batches as plain;
-use lobe_benches::slices::Slices;
+use lobe_benches::slices::{Aligned, Slices};
 use std::hint::black_box;
 use std::time::Instant;
 
 /// Points in a batch that stays in the first cache: nine slices of 2 KiB.
-const CACHED: usize = 512;
+const CACHED: usize = 256;
 /// Batches of them, so that nothing is learnt about one.
 const BUFFERS: usize = 4;
 
 /// Somewhere to write to.
-struct Out([Vec<f32>; 3]);
+struct Out([Aligned; 3]);
 
 impl Out {
     fn new(count: usize) -> Self {
-        Self(std::array::from_fn(|_| vec![0.0; count]))
+        Self(std::array::from_fn(|_| Aligned::new(vec![0.0; count].into_iter())))
     }
     fn get(&mut self) -> Rgb<&mut [f32]> {
-        let [r, g, b] = &mut self.0;
+        let [r, g, b] = self.0.each_mut().map(Aligned::get_mut);
         Rgb { r, g, b }
     }
 }
@@ -108,7 +110,7 @@ macro_rules! lobes {
             let mut runs: Vec<Run<'_>> = vec![(
                 "plain".into(),
                 Box::new(move |s: &Slices, out: &mut Out| {
-                    let [r, g, b] = &mut out.0;
+                    let Rgb { r, g, b } = out.get();
                     plain_loop(s.l(), s.v(), r, g, b, plain);
                 }),
             )];
@@ -144,9 +146,18 @@ impl<R: Real> Kernel<(Vec3<R>, Vec3<R>), Rgb<R>> for Move {
     }
 }
 
+/// The best level, or the one that `LOBE_LEVEL` names.
+fn wanted_level() -> (&'static str, Level) {
+    let mut all: Vec<_> = levels(Level::new()).collect();
+    let wanted = std::env::var("LOBE_LEVEL");
+    all.retain(|(name, _)| wanted.as_deref().is_ok_and(|wanted| wanted == *name) || wanted.is_err());
+    all.pop().unwrap_or_else(|| panic!("LOBE_LEVEL={wanted:?} is no level of this machine"))
+}
+
 fn main() {
-    let best = Batch::at(Level::new());
-    println!("level: {:?}", best.level());
+    let level = wanted_level();
+    let best = Batch::at(level.1);
+    println!("level: {}", level.0);
     let (grey, rgb) = (glam::Vec3::new(0.9, 0.6, 0.3), Rgb::new(0.9_f32, 0.6, 0.3));
     let ggx = Microfacet::new(Ggx::new(Alpha(0.3)), SmithCorrelated, Schlick::new(rgb));
     let (eta, k) = ([0.2_f32, 0.9, 1.1], [3.9_f32, 2.4, 2.2]);
@@ -206,6 +217,28 @@ fn main() {
             (
                 "its slices, moved".into(),
                 Box::new(|s, out| best.run(&Move, (s.l(), s.v()), out.get()).expect("one length")),
+            ),
+        ],
+    );
+    // What a call costs, whatever it computes: sixteen points are one register at most levels.
+    compare(
+        "a call of 16 points",
+        16,
+        &mut [
+            (
+                "plain".into(),
+                Box::new(|s, out| {
+                    let Rgb { r, g, b } = out.get();
+                    plain_loop(s.l(), s.v(), r, g, b, |l, v| l + v);
+                }),
+            ),
+            (
+                "its slices, moved".into(),
+                Box::new(|s, out| best.run(&Move, (s.l(), s.v()), out.get()).expect("one length")),
+            ),
+            (
+                "ggx, precise".into(),
+                Box::new(|s, out| best.eval_cos(&ggx, s.l(), s.v(), out.get()).expect("one length")),
             ),
         ],
     );

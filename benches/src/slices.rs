@@ -2,16 +2,52 @@
 
 use lobe::Vec3;
 
+/// Numbers that begin where a line of the cache does, as those of a renderer do that cares: a register that reaches into a second
+/// line is read and written twice.
+#[derive(Debug)]
+pub struct Aligned {
+    numbers: Vec<f32>,
+    start: usize,
+    count: usize,
+}
+
+impl Aligned {
+    /// The numbers.
+    #[must_use]
+    pub fn new(numbers: impl ExactSizeIterator<Item = f32>) -> Self {
+        const LINE: usize = 64;
+        let count = numbers.len();
+        let mut all = vec![0.0; count + LINE / size_of::<f32>()];
+        let start = all.as_ptr().align_offset(LINE);
+        for (place, number) in all[start..].iter_mut().zip(numbers) {
+            *place = number;
+        }
+        Self { numbers: all, start, count }
+    }
+
+    /// All of them.
+    #[must_use]
+    pub fn get(&self) -> &[f32] {
+        &self.numbers[self.start..][..self.count]
+    }
+
+    /// All of them, to write to.
+    #[must_use]
+    pub fn get_mut(&mut self) -> &mut [f32] {
+        &mut self.numbers[self.start..][..self.count]
+    }
+}
+
 /// Pairs of directions, a slice for each component.
-#[derive(Clone, Debug)]
-pub struct Slices([Vec<f32>; 6]);
+#[derive(Debug)]
+pub struct Slices([Aligned; 6]);
 
 impl Slices {
     /// `count` pairs, those of [`directions_of`](crate::directions_of) the `seed`.
     #[must_use]
     pub fn of(count: usize, seed: u64) -> Self {
         let pairs = crate::directions_of(count, seed);
-        let column = |f: fn(&(glam::Vec3, glam::Vec3)) -> f32| pairs.iter().map(f).collect();
+        let column = |f: fn(&(glam::Vec3, glam::Vec3)) -> f32| Aligned::new(pairs.iter().map(f));
         Self([
             column(|p| p.0.x),
             column(|p| p.0.y),
@@ -25,12 +61,12 @@ impl Slices {
     /// The directions to the light.
     #[must_use]
     pub fn l(&self) -> Vec3<&[f32]> {
-        Vec3::new(&self.0[0], &self.0[1], &self.0[2])
+        Vec3::new(self.0[0].get(), self.0[1].get(), self.0[2].get())
     }
 
     /// The directions to the viewer.
     #[must_use]
     pub fn v(&self) -> Vec3<&[f32]> {
-        Vec3::new(&self.0[3], &self.0[4], &self.0[5])
+        Vec3::new(self.0[3].get(), self.0[4].get(), self.0[5].get())
     }
 }

@@ -6,10 +6,6 @@ use crate::{Rgb, Vec3};
 pub(super) const MAX_INPUTS: usize = 32;
 pub(super) const MAX_OUTPUTS: usize = 8;
 
-/// The slices of a batch, in order.
-pub(super) type Slices<'a> = [&'a [f32]; MAX_INPUTS];
-pub(super) type SlicesMut<'a> = [&'a mut [f32]; MAX_OUTPUTS];
-
 /// A structure of slices, one number of each slice for each point of a batch.
 ///
 /// `&[f32]`, [`Uniform`], and [`Vec3`], [`Rgb`] and tuples of columns. There may be up to 32 slices in one.
@@ -26,7 +22,7 @@ pub trait Columns: Copy {
     /// The structure of what `next` gives for each slice, in order, and `uniform` for each [`Uniform`].
     fn load<R>(&self, next: &mut impl FnMut() -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R>;
     /// The structure of `f` of each slice, and of `uniform` for each [`Uniform`].
-    fn read<R>(&self, f: &impl Fn(&[f32]) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R>;
+    fn read<'a, R>(&'a self, f: &impl Fn(&'a [f32]) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R>;
     /// The structure of `f` of what stands for each slice, and of `uniform` for each [`Uniform`].
     fn map<A, R>(&self, from: &Self::At<A>, f: &impl Fn(&A) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R>;
 }
@@ -44,8 +40,12 @@ pub trait ColumnsMut {
     /// # Errors
     /// What `f` returns.
     fn visit<E>(&self, f: &mut impl FnMut(&[f32]) -> Result<(), E>) -> Result<(), E>;
-    /// Hands each slice over, in order.
-    fn take<'a>(self, f: &mut impl FnMut(&'a mut [f32]))
+    /// What comes before `at` and the rest of each slice; all of it and nothing if it is shorter.
+    fn split(self, at: usize) -> (Self, Self)
+    where
+        Self: Sized;
+    /// The structure of `f` of each slice, in order.
+    fn each<'a, A>(self, f: &mut impl FnMut(&'a mut [f32]) -> A) -> Self::At<A>
     where
         Self: 'a;
     /// The structure of what `next` gives for each slice, in order.
@@ -70,7 +70,7 @@ impl Columns for &[f32] {
         next()
     }
     #[inline(always)]
-    fn read<R>(&self, f: &impl Fn(&[f32]) -> R, _: &impl Fn(f32) -> R) -> R {
+    fn read<'a, R>(&'a self, f: &impl Fn(&'a [f32]) -> R, _: &impl Fn(f32) -> R) -> R {
         f(self)
     }
     #[inline(always)]
@@ -91,7 +91,7 @@ impl Columns for Uniform {
         uniform(self.0)
     }
     #[inline(always)]
-    fn read<R>(&self, _: &impl Fn(&[f32]) -> R, uniform: &impl Fn(f32) -> R) -> R {
+    fn read<'a, R>(&'a self, _: &impl Fn(&'a [f32]) -> R, uniform: &impl Fn(f32) -> R) -> R {
         uniform(self.0)
     }
     #[inline(always)]
@@ -108,11 +108,16 @@ impl ColumnsMut for &mut [f32] {
         f(self)
     }
     #[inline(always)]
-    fn take<'a>(self, f: &mut impl FnMut(&'a mut [f32]))
+    fn split(self, at: usize) -> (Self, Self) {
+        let at = at.min(self.len());
+        self.split_at_mut_checked(at).unwrap_or_default()
+    }
+    #[inline(always)]
+    fn each<'a, A>(self, f: &mut impl FnMut(&'a mut [f32]) -> A) -> A
     where
         Self: 'a,
     {
-        f(self);
+        f(self)
     }
     #[inline(always)]
     fn build<A>(next: &mut impl FnMut() -> A) -> A {
@@ -140,7 +145,7 @@ macro_rules! structures {
                 $name { $($field: self.$field.load(next, uniform)),+ }
             }
             #[inline(always)]
-            fn read<R>(&self, f: &impl Fn(&[f32]) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
+            fn read<'a, R>(&'a self, f: &impl Fn(&'a [f32]) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
                 $name { $($field: self.$field.read(f, uniform)),+ }
             }
             #[inline(always)]
@@ -158,11 +163,16 @@ macro_rules! structures {
                 Ok(())
             }
             #[inline(always)]
-            fn take<'a>(self, f: &mut impl FnMut(&'a mut [f32]))
+            fn split(self, at: usize) -> (Self, Self) {
+                $(let $field = self.$field.split(at);)+
+                ($name { $($field: $field.0),+ }, $name { $($field: $field.1),+ })
+            }
+            #[inline(always)]
+            fn each<'a, A>(self, f: &mut impl FnMut(&'a mut [f32]) -> A) -> Self::At<A>
             where
                 Self: 'a,
             {
-                $(self.$field.take(f);)+
+                $name { $($field: self.$field.each(f)),+ }
             }
             #[inline(always)]
             fn build<A>(next: &mut impl FnMut() -> A) -> Self::At<A> {
@@ -196,7 +206,7 @@ macro_rules! tuples {
                 ($(self.$index.load(next, uniform),)+)
             }
             #[inline(always)]
-            fn read<R>(&self, f: &impl Fn(&[f32]) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
+            fn read<'a, R>(&'a self, f: &impl Fn(&'a [f32]) -> R, uniform: &impl Fn(f32) -> R) -> Self::At<R> {
                 ($(self.$index.read(f, uniform),)+)
             }
             #[inline(always)]
@@ -214,11 +224,16 @@ macro_rules! tuples {
                 Ok(())
             }
             #[inline(always)]
-            fn take<'a>(self, f: &mut impl FnMut(&'a mut [f32]))
+            fn split(self, at: usize) -> (Self, Self) {
+                let parts = ($(self.$index.split(at),)+);
+                (($(parts.$index.0,)+), ($(parts.$index.1,)+))
+            }
+            #[inline(always)]
+            fn each<'a, To>(self, f: &mut impl FnMut(&'a mut [f32]) -> To) -> Self::At<To>
             where
                 Self: 'a,
             {
-                $(self.$index.take(f);)+
+                ($(self.$index.each(f),)+)
             }
             #[inline(always)]
             fn build<To>(next: &mut impl FnMut() -> To) -> Self::At<To> {

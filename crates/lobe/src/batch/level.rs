@@ -1,9 +1,10 @@
 //! A kernel at each SIMD level: the loops over registers.
 
-use super::columns::{Columns, ColumnsMut, MAX_INPUTS, MAX_OUTPUTS, Slices, SlicesMut};
+use super::columns::{Columns, ColumnsMut, MAX_INPUTS, MAX_OUTPUTS};
 use super::{Kernel, Level};
 use crate::number::{Estimate, Precision};
 use crate::{Rgb, Vec3};
+use core::cell::Cell;
 
 #[cfg(all(
     not(lobe_scalar),
@@ -107,55 +108,75 @@ fn run_from<F, P, K, C, O, const ADD: bool>(
     K: Kernel<C::At<P::Of<F>>, O::At<P::Of<F>>> + Copy,
 {
     const { assert!(C::COUNT <= MAX_INPUTS && O::COUNT <= MAX_OUTPUTS, "too many slices in one batch") };
-    let slices = collect(&inputs);
-    let mut out: SlicesMut<'_> = core::array::from_fn(|_| &mut [][..]);
-    let mut places = out.iter_mut();
-    outputs.take(&mut |slice| {
-        if let Some(place) = places.next() {
-            *place = slice;
-        }
-    });
-
     let rest = count % F::LANES;
     let whole = count - rest;
+    let (out, last) = outputs.split(whole);
     if whole > start {
-        let out = out.each_mut().map(|slice| &mut **slice);
-        registers::<F, P, K, C, O, ADD>(token, kernel, inputs, &slices, out, whole / F::LANES);
+        let arrays = inputs.read(&|slice| F::arrays(slice), &|_| &[][..]);
+        let results = out.each(&mut |slice| F::arrays_mut(slice));
+        registers::<F, P, K, C, O, ADD>(token, kernel, &inputs, &arrays, results, whole / F::LANES);
     }
     if rest > 0 {
-        let padded = slices.map(|slice| padded(slice.get(whole..count).unwrap_or(&[])));
-        let mut results = out.each_ref().map(|slice| self::padded(slice.get(whole..count).unwrap_or(&[])));
-        let buffers = padded.each_ref().map(|buffer| buffer.get(..F::LANES).unwrap_or(&[]));
-        let to = results.each_mut().map(|buffer| buffer.get_mut(..F::LANES).unwrap_or(&mut []));
-        registers::<F, P, K, C, O, ADD>(token, kernel, inputs, &buffers, to, 1);
-        for (buffer, slice) in results.iter().zip(&mut out) {
-            copy(slice.get_mut(whole..count).unwrap_or(&mut []), buffer);
-        }
+        run_rest::<F, P, K, C, O, ADD>(token, kernel, inputs, last, whole);
     }
 }
 
-/// The slices of a structure, in order.
-#[inline(always)]
-fn collect<C: Columns>(columns: &C) -> Slices<'_> {
-    let mut slices: Slices<'_> = [&[]; MAX_INPUTS];
-    let mut places = slices.iter_mut();
-    let _ = columns.visit(&mut |slice| -> Result<(), ()> {
+/// What is left from `start` on, less than a register; `outputs` has it alone.
+#[cold]
+#[inline(never)]
+fn run_rest<F, P, K, C, O, const ADD: bool>(token: F::Token, kernel: K, inputs: C, outputs: O, start: usize)
+where
+    F: Register,
+    P: Precision,
+    C: Columns,
+    O: ColumnsMut,
+    K: Kernel<C::At<P::Of<F>>, O::At<P::Of<F>>> + Copy,
+{
+    let mut buffers = [[0.0; MAX_LANES]; MAX_INPUTS];
+    let mut results = [[0.0; MAX_LANES]; MAX_OUTPUTS];
+    let mut places = buffers.iter_mut();
+    let _ = inputs.visit(&mut |slice| -> Result<(), ()> {
         if let Some(place) = places.next() {
-            *place = slice;
+            pad(place, slice.get(start..).unwrap_or(&[]));
         }
         Ok(())
     });
-    slices
+    let mut places = results.iter_mut();
+    let _ = outputs.visit(&mut |slice| -> Result<(), ()> {
+        if let Some(place) = places.next() {
+            pad(place, slice);
+        }
+        Ok(())
+    });
+
+    let mut places = buffers.iter();
+    let arrays = inputs.load(
+        &mut || places.next().and_then(|place| place.get(..F::LANES)).map_or(&[][..], |place| F::arrays(place)),
+        &|_| &[][..],
+    );
+    let mut places = results.iter_mut();
+    let to = O::build(&mut || {
+        let place = places.next().and_then(|place| place.get_mut(..F::LANES));
+        place.map_or(&mut [][..], |place| F::arrays_mut(place))
+    });
+    registers::<F, P, K, C, O, ADD>(token, kernel, &inputs, &arrays, to, 1);
+
+    let mut places = results.iter();
+    outputs.each(&mut |slice| {
+        if let Some(place) = places.next() {
+            copy(slice, place);
+        }
+    });
 }
 
-/// The `count` registers of each slice.
-#[inline(never)]
+/// The `count` registers of each slice. In lanes all of it is [`Register::run`], so that this is the arguments of a call.
+#[inline]
 fn registers<F, P, K, C, O, const ADD: bool>(
     token: F::Token,
     kernel: K,
-    inputs: C,
-    slices: &Slices<'_>,
-    out: SlicesMut<'_>,
+    inputs: &C,
+    arrays: &C::At<&[F::Array]>,
+    mut results: O::At<&mut [F::Array]>,
     count: usize,
 ) where
     F: Register,
@@ -168,26 +189,21 @@ fn registers<F, P, K, C, O, const ADD: bool>(
         token,
         #[inline(always)]
         move || {
-            let (kernel, inputs) = (kernel, inputs);
+            let (kernel, inputs) = (kernel, *inputs);
             // Said once, and slice by slice without a loop, so that the compiler knows it below: or it would check every
             // access for itself, nine jumps for each register.
-            let mut known = true;
-            let mut from = slices.iter();
-            let arrays = inputs.load(
-                &mut || {
-                    let arrays = from.next().map_or(&[][..], |slice| F::arrays(slice));
-                    known &= arrays.len() == count;
-                    arrays
+            let known = Cell::new(true);
+            let long = |length: usize| known.set(known.get() & (length == count));
+            let arrays = inputs.map(
+                arrays,
+                &|arrays| {
+                    long(arrays.len());
+                    *arrays
                 },
-                &|_| &[],
+                &|_| &[][..],
             );
-            let mut to = out.into_iter();
-            let mut results = O::build(&mut || {
-                let arrays = to.next().map_or(&mut [][..], |slice| F::arrays_mut(slice));
-                known &= arrays.len() == count;
-                arrays
-            });
-            if !known {
+            O::store(&mut results, O::build(&mut || ()), &mut |arrays, ()| long(arrays.len()));
+            if !known.get() {
                 return;
             }
             for i in 0..count {
@@ -275,13 +291,12 @@ fn register_lights<F, P, K, L>(
     );
 }
 
-/// A register with the last number again and again, so that no lane holds anything that the caller did not give.
+/// Fills a register, with the last number again and again, so that no lane holds anything that the caller did not give.
 #[cold]
 #[inline(never)]
-fn padded(tail: &[f32]) -> [f32; MAX_LANES] {
-    let mut buffer = [tail.last().copied().unwrap_or(0.0); MAX_LANES];
-    copy(&mut buffer, tail);
-    buffer
+fn pad(buffer: &mut [f32; MAX_LANES], tail: &[f32]) {
+    buffer.fill(tail.last().copied().unwrap_or(0.0));
+    copy(buffer, tail);
 }
 
 #[cold]

@@ -72,6 +72,7 @@ pub use level::{AtEveryLevel, LightsAtEveryLevel, levels};
 
 use crate::number::{Precise, Precision};
 use crate::{Rgb, Vec3};
+use core::convert::Infallible;
 use core::marker::PhantomData;
 
 /// How a batch is run: at which SIMD level, and to which precision.
@@ -233,7 +234,24 @@ impl<P: Precision> Batch<P> {
 }
 
 /// The length that all slices have.
+///
+/// A look at each length and no branch; which slice it is that differs is found out apart, or a short batch would spend more
+/// time here than in its loop.
+#[inline(always)]
 fn common_length(inputs: &impl Columns, outputs: &impl ColumnsMut) -> Result<usize, LengthError> {
+    let (mut first, mut same) = (None, true);
+    let mut look = |slice: &[f32]| -> Result<(), Infallible> {
+        same &= *first.get_or_insert(slice.len()) == slice.len();
+        Ok(())
+    };
+    let (Ok(()), Ok(())) = (inputs.visit(&mut look), outputs.visit(&mut look));
+    if same { Ok(first.unwrap_or(0)) } else { find_length(inputs, outputs) }
+}
+
+/// The same, with the slice that is not as long.
+#[cold]
+#[inline(never)]
+fn find_length(inputs: &impl Columns, outputs: &impl ColumnsMut) -> Result<usize, LengthError> {
     let mut lengths = Lengths::default();
     inputs.visit(&mut |slice| lengths.check(slice))?;
     outputs.visit(&mut |slice| lengths.check(slice))?;
