@@ -228,6 +228,15 @@ fn near<P: Precision>(bound: f32) {
             .expect("one length");
         for (i, &(l, v)) in pairs.iter().enumerate() {
             let one = lobe.eval_cos(l, v);
+            assert!(
+                !one.r.is_finite() || (out[0][i].is_finite() && out[0][i] >= 0.0),
+                "{level:?}: {} at {l:?} {v:?}",
+                out[0][i]
+            );
+            // Nearer the horizon opposite directions have no digits: `Real::COSINE_SCALE`.
+            if l.z.max(v.z) > 0.0 && l.z.max(v.z) < 1e-18 {
+                continue;
+            }
             assert!((out[0][i] - one.r).abs() <= bound * one.r, "{level:?}: {} {} at {l:?} {v:?}", out[0][i], one.r);
         }
     }

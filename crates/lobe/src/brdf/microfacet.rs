@@ -112,7 +112,7 @@ pub(crate) struct Facet<R> {
     l: Vec3<R>,
     v: Vec3<R>,
     /// `(l + v) 2⁶²`: between opposite directions on the horizon the sum is as small as the cosines, and so its square
-    /// is a normal number there too.
+    /// is a normal number there too. Without the power of two in numbers that have none ([`Real::COSINE_SCALE`]).
     s: Vec3<R>,
     /// `|s|²`.
     length2: R,
@@ -123,10 +123,10 @@ pub(crate) struct Facet<R> {
 impl<R: Real> Facet<R> {
     #[inline(always)]
     pub(crate) fn between(l: Vec3<R>, v: Vec3<R>) -> Self {
-        let s = (l + v) * l.z.lift(R::SCALE);
-        let length2 = s.length_squared();
+        let s = (l + v) * l.z.lift(R::COSINE_SCALE);
+        let length2 = s.length_squared().off_zero();
         // Of opposite directions the root may be NaN, which this order drops: they are not above the horizon.
-        let cos = l.z.lift(1.0).min(length2.sqrt_of_normal().times(0.5 / R::SCALE));
+        let cos = l.z.lift(1.0).min(length2.sqrt_of_normal().times(0.5 / R::COSINE_SCALE));
         Self { l, v, s, length2, cos }
     }
 

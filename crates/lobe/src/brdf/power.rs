@@ -11,7 +11,7 @@
 //!
 //! `docs/numerics.md` derives the bounds.
 
-use super::{both_above, zero_or_nan};
+use super::{both_above, keep_nan};
 use crate::carry::carry;
 use crate::number::Real;
 use crate::vector::Vec3;
@@ -50,14 +50,16 @@ pub(crate) fn mirror_power<R: Real>(one_minus_cos: R, q: R, mask: R::Mask) -> R 
 pub(crate) fn half_vector_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
     // Grazing cosines down to 1e-20 have squares below the range of f32. Without the scale `(n·h)^q` is wrong in the first
     // digit there (test `grazing_needs_the_scale`).
-    let s = (l + v) * q.lift(R::SCALE);
-    half_vector_power(s.x.squared() + s.y.squared(), s.z.squared(), q, both_above(l, v)) + zero_or_nan(l, v)
+    let s = (l + v) * q.lift(R::COSINE_SCALE);
+    let (sin2, cos2) = (s.y.mul_add(s.y, s.x.squared()), s.z.squared().off_zero());
+    keep_nan(l, v, half_vector_power(sin2, cos2, q, both_above(l, v)))
 }
 
 /// `max(0, r·v)^q` in the local frame, where the mirror direction of `l` is `(−l.x, −l.y, l.z)`, and where both
 /// directions are above the horizon; else 0 or NaN. It is 0 wherever `r·v ≤ 0`, for `q = 0` too.
 #[inline(always)]
 pub(crate) fn mirror_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
-    let distance2 = (l.x + v.x).squared() + (l.y + v.y).squared() + (l.z - v.z).squared();
-    mirror_power(distance2.times(0.5), q, both_above(l, v)) + zero_or_nan(l, v)
+    let (x, y, z) = (l.x + v.x, l.y + v.y, l.z - v.z);
+    let distance2 = z.mul_add(z, y.mul_add(y, x.squared()));
+    keep_nan(l, v, mirror_power(distance2.times(0.5), q, both_above(l, v)))
 }

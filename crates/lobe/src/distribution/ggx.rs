@@ -91,10 +91,12 @@ impl<R: Real> SmithLambda<R> for Ggx<R> {
         (w.z + self.facing_either_way(w)).times(0.5)
     }
 
-    /// `√(cos²θ + α² sin²θ)`.
+    /// `√(cos²θ + α² sin²θ)`, with `sin²θ = 1 − cos²θ`: what that loses near the normal is lost beside a 1. Never less
+    /// than `cos θ`, so that no masking exceeds 1.
     #[inline(always)]
     fn facing_either_way(&self, w: Vec3<R>) -> R {
-        w.z.mul_add(w.z, self.alpha2 * sum_of_squares(w.x, w.y)).sqrt_of_normal()
+        let cos2 = w.z.squared();
+        self.alpha2.mul_add(cos2.lift(1.0) - cos2, cos2).sqrt_of_normal()
     }
 }
 

@@ -15,9 +15,9 @@ impl<R: Real, D: SmithLambda<R>> Masking<R, D> for SmithCorrelated {
     #[inline(always)]
     fn quotient(&self, distribution: &D, l: Vec3<R>, v: Vec3<R>, _h: Vec3<R>, _cos_d: R, weight: R) -> Quotient<R> {
         let (area_l, area_v) = (distribution.facing_either_way(l), distribution.facing_either_way(v));
-        let (n_dot_l, n_dot_v) = (l.z.times(R::SCALE), v.z.times(R::SCALE));
+        let (n_dot_l, n_dot_v) = (l.z.times(R::COSINE_SCALE), v.z.times(R::COSINE_SCALE));
         // 1 + Λ(l) + Λ(v) is half of the sum of (1 + 2 Λ)(l) and (1 + 2 Λ)(v): positive terms only, and symmetric.
-        Quotient::new(weight.times(0.5 * R::SCALE), n_dot_l.mul_add(area_v, n_dot_v * area_l))
+        Quotient::new(weight.times(0.5 * R::COSINE_SCALE), n_dot_l.mul_add(area_v, n_dot_v * area_l).off_zero())
     }
 }
 

@@ -119,6 +119,7 @@ impl<F: Estimate, P: Rough> Real for Approximate<F, P> {
     const ROOT_SCALE: f64 = F::ROOT_SCALE;
     /// Half of that of `f32`: the squares of scaled sums reach 2¹²⁶ there, whose reciprocal some machines estimate as 0.
     const SCALE: f64 = F::SCALE * 0.5;
+    const COSINE_SCALE: f64 = 1.0;
     const MIN_POSITIVE: f64 = F::MIN_POSITIVE;
 
     #[inline(always)]
@@ -148,6 +149,11 @@ impl<F: Estimate, P: Rough> Real for Approximate<F, P> {
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
         Self::new(self.value.copysign(sign.value))
+    }
+    /// The estimates of 0 are infinite, and `0 · ∞` would be NaN.
+    #[inline(always)]
+    fn off_zero(self) -> Self {
+        self.max(self.lift(Self::MIN_POSITIVE))
     }
     #[inline(always)]
     fn max(self, bound: Self) -> Self {

@@ -73,6 +73,10 @@ pub trait Real:
     /// vectors with before they square them. The largest square is 2¹²⁶, and that of the smallest normal number
     /// is a normal number again. A power of two changes no digit.
     const SCALE: f64 = Self::ROOT_SCALE * Self::ROOT_SCALE;
+    /// What microfacets multiply cosines and the sums of two unit vectors with: [`SCALE`](Self::SCALE). [`Approximate`] numbers
+    /// save these products, a tenth of all, and have 1: they have no digits of a lobe between opposite directions that are both
+    /// within 1e-18 of the horizon, where squares underflow, and stay finite there by [`off_zero`](Self::off_zero).
+    const COSINE_SCALE: f64 = Self::SCALE;
     /// 2⁻¹²⁶ in `f32`, the smallest normal number: a floor for denominators that are 0 at one direction only.
     const MIN_POSITIVE: f64 = f32::MIN_POSITIVE as f64;
     /// Whether the type has so few exponents that a formula had better normalise a vector than square its squares. A
@@ -99,6 +103,12 @@ pub trait Real:
     #[inline(always)]
     fn sqrt_of_normal(self) -> Self {
         self.sqrt()
+    }
+    /// `self`, the square or the product of what was multiplied with [`COSINE_SCALE`](Self::COSINE_SCALE); where that is 1, at
+    /// least [`MIN_POSITIVE`](Self::MIN_POSITIVE).
+    #[inline(always)]
+    fn off_zero(self) -> Self {
+        self
     }
     /// The magnitude of `self` with the sign bit of `sign`.
     fn copysign(self, sign: Self) -> Self;
