@@ -261,6 +261,7 @@ pub(crate) struct Lamp {
 impl Lamp {
     /// What arrives at a point, and where it comes from; nothing beyond the end of the light and outside its cone. `in_ball` is
     /// a point of the unit ball, which a light with a radius is picked by.
+    #[inline]
     pub(crate) fn reach(&self, point: Vec3, in_ball: impl FnOnce() -> Vec3) -> Option<(Incident, Vec3)> {
         let mut light = self.light;
         if self.radius > 0.0 {

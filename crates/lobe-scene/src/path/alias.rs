@@ -53,7 +53,7 @@ impl Alias {
     /// An entry, and the probability of it, for two numbers of 32 bits.
     #[inline]
     pub(crate) fn pick(&self, [slot, side]: [u32; 2]) -> (usize, f32) {
-        let at = (u64::from(slot) * self.slots.len() as u64 >> 32) as usize;
+        let at = ((u64::from(slot) * self.slots.len() as u64) >> 32) as usize;
         let Slot { keep, other, .. } = self.slots[at];
         let at = if u64::from(side) < keep { at } else { other as usize };
         (at, self.slots[at].probability)

@@ -163,8 +163,71 @@ fn a_floor_under_a_rectangle_has_its_closed_form() {
     let whole: f64 = corners.iter().map(|(a, b)| form_factor(*a, *b, 1.0)).sum();
     let view = view(down_at_origin(Vec3::new(3.0, 2.0, 0.5)), BLACK, vec![]);
     for strategy in strategies() {
-        let options = Options { strategy, max_depth: 1, ..small(256) };
+        let options = Options { strategy, max_depth: 1, ..small(128) };
         assert_near(mean(&scene, &view, &options), 0.6 * 3.0 * whole, 5e-3, &format!("{strategy:?}"));
+    }
+}
+
+/// Far from the origin coordinates have few digits, and the light must still not lie in its own shadow.
+#[test]
+fn a_lamp_far_from_the_origin_or_from_the_floor_is_whole() {
+    let corners = [(0.7, 0.4), (0.7, 0.2), (0.3, 0.4), (0.3, 0.2)];
+    let far_lamp: f64 = 4.0 * form_factor(100.0, 100.0, 1000.0);
+    let near_lamp: f64 = corners.iter().map(|(a, b)| form_factor(*a, *b, 1.0)).sum();
+    for (offset, distance, half, expected) in [
+        (Vec3::new(300.0, -50.0, 20.0), 1.0, [0.5, 0.3], near_lamp),
+        (Vec3::ZERO, 1000.0, [100.0, 100.0], far_lamp),
+        // The lamp is near the origin, the floor far from it.
+        (Vec3::Y * -1000.0, 1000.0, [100.0, 100.0], far_lamp),
+    ] {
+        let center = if distance > 1.0 { Vec3::Y * distance } else { Vec3::new(0.2, 1.0, 0.1) };
+        let lamp = rectangle(center, [Vec3::X * half[0], Vec3::Z * half[1]], 1);
+        // A surface that is open makes shadow rays go from one to the next.
+        for open in [false, true] {
+            let pane = rectangle(center / 2.0, [Vec3::X * 300.0, Vec3::Z * 300.0], 2);
+            let mut meshes = vec![floor(5.0, 0), lamp.clone()];
+            meshes.extend(open.then_some(pane));
+            for mesh in &mut meshes {
+                mesh.positions.iter_mut().for_each(|position| *position += offset);
+            }
+            let pane = Material { dissolve: 0.5, ..shining(0.0) };
+            let scene = Scene { meshes, materials: vec![lambert(0.6), shining(3.0), pane], ..Scene::default() };
+            let camera = down_at_origin(Vec3::new(1.0, 0.3, 0.2));
+            let camera = Camera { eye: camera.eye + offset, target: offset, height: Some(0.01), ..camera };
+            let expected = expected * 1.8 * if open { 0.5 } else { 1.0 };
+            for strategy in [Strategy::Both, Strategy::Lights] {
+                let options = Options { strategy, max_depth: 1, ..small(64) };
+                let (mean, error) = mean(&scene, &view(camera, BLACK, vec![]), &options);
+                let name = format!("{strategy:?} {offset} {distance} {open}: {mean} ± {error}, expected {expected}");
+                // Rays start 32 units of the last place above the floor, a thousandth at coordinates of 300.
+                assert!(error < 1e-2 * mean && (mean - expected).abs() < 5.0 * error + 3e-3 * expected, "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_light_with_a_picture_is_as_bright_as_its_texels() {
+    use crate::texture::{Encoding, Map, Sampler, Texture};
+    let texels = vec![[0, 0, 0, 255], [255; 4]];
+    let sampler = Sampler { nearest: true, ..Sampler::default() };
+    let texture = Arc::new(Texture::new(2, 1, texels, Encoding::Linear, sampler).expect("a texture"));
+    let map = Map { texture, set: 0, transform: (glam::Mat2::IDENTITY, glam::Vec2::ZERO) };
+    let mut scene = under_a_lamp(lambert(0.6));
+    let factors = Factors { emission: [3.0; 3], base_color: [0.0; 3], double_sided: true, ..Factors::default() };
+    let maps = crate::Maps { emission: Some(map), ..crate::Maps::default() };
+    scene.materials[1] = Material::from_gltf("lamp", GltfMaterial { factors, maps });
+    // u along x: the half beyond x = 0.2 shines.
+    let lamp = &mut scene.meshes[1];
+    lamp.vertices = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+        .map(|uv| crate::Vertex { uv: [glam::Vec2::from(uv); 2], ..crate::Vertex::default() })
+        .to_vec();
+    lamp.triangles.iter_mut().for_each(|triangle| triangle.vertices = triangle.positions);
+    let half: f64 = [0.4, 0.2].iter().map(|b| form_factor(0.7, *b, 1.0) - form_factor(0.2, *b, 1.0)).sum();
+    let view = view(down_at_origin(Vec3::new(3.0, 2.0, 0.5)), BLACK, vec![]);
+    for strategy in strategies() {
+        let options = Options { strategy, max_depth: 1, ..small(128) };
+        assert_near(mean(&scene, &view, &options), 1.8 * half, 1e-2, &format!("{strategy:?}"));
     }
 }
 
@@ -203,7 +266,7 @@ fn light_from_the_sky_is_that_of_quadrature() {
         let scene = Scene { meshes: vec![floor(5.0, 0)], materials: vec![material], ..Scene::default() };
         let view = view(down_at_origin(eye), sky, vec![]);
         for strategy in strategies() {
-            let options = Options { strategy, ..small(256) };
+            let options = Options { strategy, ..small(128) };
             assert_near(mean(&scene, &view, &options), expected, most, &format!("{strategy:?}"));
         }
     }
@@ -225,7 +288,7 @@ fn light_from_a_picture_is_that_of_its_texels() {
     let scene = Scene { meshes: vec![floor(5.0, 0)], materials: vec![lambert(0.5)], ..Scene::default() };
     let view = view(down_at_origin(Vec3::new(3.0, 2.0, 0.0)), BLACK, vec![]);
     for strategy in [Strategy::Both, Strategy::Lights] {
-        let options = Options { strategy, environment: environment.clone(), ..small(256) };
+        let options = Options { strategy, environment: environment.clone(), ..small(128) };
         let (mean, error) = mean(&scene, &view, &options);
         assert!(error < 2e-3 * mean && (mean / expected - 1.0).abs() < 3e-3, "{strategy:?}: {mean} {error} {expected}");
     }
@@ -372,11 +435,14 @@ fn half_of_the_light_passes_what_is_half_there() {
     let mut scene = under_a_lamp(lambert(0.6));
     scene.meshes.push(rectangle(Vec3::Y * 0.5, [Vec3::X * 2.0, Vec3::Z * 2.0], 2));
     scene.materials.push(Material { dissolve: 0.25, ..shining(0.0) });
+    // What is cut out is not there at all.
+    scene.meshes.push(rectangle(Vec3::Y * 0.6, [Vec3::X * 2.0, Vec3::Z * 2.0], 3));
+    scene.materials.push(gltf(Factors { cutoff: Some(2.0), double_sided: true, ..Factors::default() }));
     let corners = [(0.7, 0.4), (0.7, 0.2), (0.3, 0.4), (0.3, 0.2)];
     let whole: f64 = corners.iter().map(|(a, b)| form_factor(*a, *b, 1.0)).sum();
     let below = view(down_at_origin(Vec3::new(3.0, 0.3, 0.5)), BLACK, vec![]);
     for strategy in strategies() {
-        let options = Options { strategy, max_depth: 1, ..small(256) };
+        let options = Options { strategy, max_depth: 1, ..small(128) };
         assert_near(mean(&scene, &below, &options), 0.75 * 1.8 * whole, 1e-2, &format!("{strategy:?}"));
     }
 }
@@ -465,7 +531,7 @@ fn all_materials_of_mtl_are_finite_and_agree() {
         let meshes = vec![floor(5.0, 0), lamp.clone()];
         let scene = Scene { meshes, materials: vec![material, shining(3.0)], ..Scene::default() };
         let [lobes, lights] = [Strategy::Lobes, Strategy::Lights]
-            .map(|strategy| mean(&scene, &view, &Options { strategy, max_depth: 1, ..small(256) }));
+            .map(|strategy| mean(&scene, &view, &Options { strategy, max_depth: 1, ..small(128) }));
         let error = lobes.1.hypot(lights.1);
         assert!(error < 1e-2 * lights.0 && (lobes.0 - lights.0).abs() < 5.0 * error, "{model}: {lobes:?} {lights:?}");
     }

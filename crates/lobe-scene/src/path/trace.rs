@@ -85,8 +85,12 @@ impl Tracer<'_> {
             if is_black(weight) {
                 return sum;
             }
+            if !(weight.r + weight.g + weight.b).is_finite() {
+                // No radiance: it is counted as such.
+                return weight;
+            }
             if vertex >= self.options.roulette_from {
-                // By the largest channel: what is left of a path goes on at about the weight 1. NaN goes on, and is counted.
+                // By the largest channel: what is left of a path goes on at about the weight 1.
                 let survival = weight.r.max(weight.g).max(weight.b);
                 if survival < 1.0 {
                     if numbers.one(vertex, Purpose::Roulette, 0) >= survival {
