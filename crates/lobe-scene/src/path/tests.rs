@@ -159,8 +159,7 @@ fn under_a_lamp(material: Material) -> Scene {
 #[test]
 fn a_floor_under_a_rectangle_has_its_closed_form() {
     let scene = under_a_lamp(lambert(0.6));
-    let corners = [(0.7, 0.4), (0.7, 0.2), (0.3, 0.4), (0.3, 0.2)];
-    let whole: f64 = corners.iter().map(|(a, b)| form_factor(*a, *b, 1.0)).sum();
+    let whole = whole_lamp();
     let view = view(down_at_origin(Vec3::new(3.0, 2.0, 0.5)), BLACK, vec![]);
     for strategy in strategies() {
         let options = Options { strategy, max_depth: 1, ..small(128) };
@@ -168,12 +167,16 @@ fn a_floor_under_a_rectangle_has_its_closed_form() {
     }
 }
 
+/// The form factor of that light from the origin.
+fn whole_lamp() -> f64 {
+    [(0.7, 0.4), (0.7, 0.2), (0.3, 0.4), (0.3, 0.2)].iter().map(|(a, b)| form_factor(*a, *b, 1.0)).sum()
+}
+
 /// Far from the origin coordinates have few digits, and the light must still not lie in its own shadow.
 #[test]
 fn a_lamp_far_from_the_origin_or_from_the_floor_is_whole() {
-    let corners = [(0.7, 0.4), (0.7, 0.2), (0.3, 0.4), (0.3, 0.2)];
     let far_lamp: f64 = 4.0 * form_factor(100.0, 100.0, 1000.0);
-    let near_lamp: f64 = corners.iter().map(|(a, b)| form_factor(*a, *b, 1.0)).sum();
+    let near_lamp = whole_lamp();
     for (offset, distance, half, expected) in [
         (Vec3::new(300.0, -50.0, 20.0), 1.0, [0.5, 0.3], near_lamp),
         (Vec3::ZERO, 1000.0, [100.0, 100.0], far_lamp),
@@ -419,8 +422,7 @@ fn a_mirror_shows_a_light_without_noise() {
     }
     // With a diffuse lobe beside it both are there.
     scene.materials[0] = Material { mirror: Mirror::new(Rgb::splat(0.5)), ..lambert(0.3) };
-    let corners = [(0.7, 0.4), (0.7, 0.2), (0.3, 0.4), (0.3, 0.2)];
-    let whole: f64 = corners.iter().map(|(a, b)| form_factor(*a, *b, 1.0)).sum();
+    let whole = whole_lamp();
     let measured = mean(&scene, &view, &Options { max_depth: 1, ..small(128) });
     assert_near(measured, 1.5 + 0.9 * whole, 5e-3, "mirror and floor");
 }
@@ -438,12 +440,23 @@ fn half_of_the_light_passes_what_is_half_there() {
     // What is cut out is not there at all.
     scene.meshes.push(rectangle(Vec3::Y * 0.6, [Vec3::X * 2.0, Vec3::Z * 2.0], 3));
     scene.materials.push(gltf(Factors { cutoff: Some(2.0), double_sided: true, ..Factors::default() }));
-    let corners = [(0.7, 0.4), (0.7, 0.2), (0.3, 0.4), (0.3, 0.2)];
-    let whole: f64 = corners.iter().map(|(a, b)| form_factor(*a, *b, 1.0)).sum();
+    let whole = whole_lamp();
     let below = view(down_at_origin(Vec3::new(3.0, 0.3, 0.5)), BLACK, vec![]);
     for strategy in strategies() {
         let options = Options { strategy, max_depth: 1, ..small(128) };
         assert_near(mean(&scene, &below, &options), 0.75 * 1.8 * whole, 1e-2, &format!("{strategy:?}"));
+    }
+}
+
+#[test]
+fn a_light_that_is_half_there_gives_half() {
+    let mut scene = under_a_lamp(lambert(0.6));
+    scene.materials[1].dissolve = 0.5;
+    let whole = whole_lamp();
+    let view = view(down_at_origin(Vec3::new(3.0, 2.0, 0.5)), BLACK, vec![]);
+    for strategy in strategies() {
+        let options = Options { strategy, max_depth: 1, ..small(64) };
+        assert_near(mean(&scene, &view, &options), 0.9 * whole, 1e-2, &format!("{strategy:?}"));
     }
 }
 
@@ -479,8 +492,7 @@ fn what_is_no_radiance_is_counted_and_not_shown() {
 fn one_sided_lights_shine_to_the_front() {
     let factors =
         |double_sided| Factors { emission: [3.0; 3], base_color: [0.0; 3], double_sided, ..Factors::default() };
-    let corners = [(0.7, 0.4), (0.7, 0.2), (0.3, 0.4), (0.3, 0.2)];
-    let whole: f64 = corners.iter().map(|(a, b)| form_factor(*a, *b, 1.0)).sum();
+    let whole = whole_lamp();
     let view = view(down_at_origin(Vec3::new(3.0, 0.5, 0.5)), BLACK, vec![]);
     for strategy in strategies() {
         let options = Options { strategy, max_depth: 1, ..small(64) };
