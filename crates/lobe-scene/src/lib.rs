@@ -25,6 +25,7 @@
 //! | [`Smoothing`] | normals where a file has none |
 //! | [`Material`] | how a material becomes lobes, and in which units |
 //! | [`Renderer`] | the picture: shadows, mirrors, two sides, smooth outlines |
+//! | [`path`] | the picture with all light that comes by way of other surfaces: path tracing |
 //! | [`image`] | PNG, EXR and PFM |
 //! | [`write_atomically`], [`check_writable`] | files written without ever leaving half of one |
 //! | [`procedural`] | scenes made by a formula |
@@ -37,7 +38,7 @@
 //!
 //! # Limits
 //!
-//! No refraction, no light that bounces between diffuse surfaces. Coordinates up to
+//! No refraction; light that bounces between diffuse surfaces only in [`path`]. Coordinates up to
 //! [`MAX_COORDINATE`]. Nothing that a file holds makes a function panic, and nothing is allocated from a number that
 //! a file merely states.
 
@@ -60,6 +61,7 @@ mod mesh;
 pub mod mtl;
 mod normals;
 pub mod obj;
+pub mod path;
 mod picture;
 pub mod procedural;
 mod render;

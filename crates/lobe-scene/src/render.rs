@@ -76,10 +76,10 @@ impl Settings {
 ///
 /// The picture does not depend on the number of threads: each pixel is computed by itself, in one order.
 pub struct Renderer<'a> {
-    scene: &'a Scene,
-    bvh: Bvh,
-    triangles: Vec<ShadingTriangle>,
-    bounds: (Vec3, Vec3),
+    pub(crate) scene: &'a Scene,
+    pub(crate) bvh: Bvh,
+    pub(crate) triangles: Vec<ShadingTriangle>,
+    pub(crate) bounds: (Vec3, Vec3),
     /// Whether some surface lets light through, so that shadows have to be multiplied up.
     dissolved: bool,
 }
@@ -92,12 +92,12 @@ impl std::fmt::Debug for Renderer<'_> {
 
 /// What shading needs to know of a triangle.
 #[derive(Debug, Clone, Copy)]
-struct ShadingTriangle {
-    corners: [Vec3; 3],
+pub(crate) struct ShadingTriangle {
+    pub(crate) corners: [Vec3; 3],
     normals: [Vec3; 3],
     /// Of the plane, unit length, counter-clockwise side.
-    face: Vec3,
-    material: u32,
+    pub(crate) face: Vec3,
+    pub(crate) material: u32,
     /// Which mesh of the scene it is in, and which triangle there.
     place: [u32; 2],
 }
@@ -200,6 +200,38 @@ impl<'a> Renderer<'a> {
         );
         Ok(image)
     }
+
+    /// The part of the light that arrives: the product of `1 − d` over the surfaces on the way.
+    pub(crate) fn visible(&self, materials: &[Material], start: Vec3, to_light: Vec3, distance: f32) -> f32 {
+        if !self.dissolved {
+            return f32::from(u8::from(self.bvh.is_free(start.into(), to_light.into(), distance)));
+        }
+        // From surface to surface, as the view does, so that a ray through a shared edge counts one triangle.
+        let (mut start, mut distance, mut visible) = (start, distance, 1.0);
+        for _ in 0..MOST_SURFACES {
+            let Some(hit) = self.bvh.nearest(start.into(), to_light.into(), distance) else {
+                return visible;
+            };
+            let triangle = &self.triangles[hit.triangle as usize];
+            let material = &materials[triangle.material as usize];
+            let point = Point::new(triangle, &hit, to_light);
+            let solid = match material.is_open() && material.is_textured() {
+                true => {
+                    let at = Textured::new(self.scene, &point, 0.0);
+                    material.opacity(at.uv, at.footprint, at.color[3])
+                }
+                false => material.dissolve,
+            };
+            visible *= 1.0 - solid;
+            if visible <= 0.0 {
+                return 0.0;
+            }
+            // The ray starts a little behind the surface: without that, it would end as much behind its end.
+            distance -= (point.inside - start).dot(to_light);
+            start = point.inside;
+        }
+        0.0
+    }
 }
 
 /// Points in the unit square for the samples of a pixel: Hammersley's set, centred, so that one sample is the middle.
@@ -210,24 +242,45 @@ fn sample_points(count: u32) -> Vec<[f32; 2]> {
 }
 
 /// The lights of a view, sorted by kind.
-struct Lights {
+pub(crate) struct Lights {
     ambient: AmbientLight,
-    points: Vec<Lamp>,
-    directional: Vec<DirectionalLight>,
+    pub(crate) points: Vec<Lamp>,
+    pub(crate) directional: Vec<DirectionalLight>,
 }
 
 /// A light at a point, of either kind.
-struct Lamp {
-    light: PointLight,
+pub(crate) struct Lamp {
+    pub(crate) light: PointLight,
     /// 0 for a point.
     radius: f32,
     /// Infinite for no end.
     range: f32,
-    cone: Option<Cone>,
+    pub(crate) cone: Option<Cone>,
+}
+
+impl Lamp {
+    /// What arrives at a point, and where it comes from; nothing beyond the end of the light and outside its cone. `in_ball` is
+    /// a point of the unit ball, which a light with a radius is picked by.
+    #[inline]
+    pub(crate) fn reach(&self, point: Vec3, in_ball: impl FnOnce() -> Vec3) -> Option<(Incident, Vec3)> {
+        let mut light = self.light;
+        if self.radius > 0.0 {
+            light.position = (Vec3::from(light.position) + in_ball() * self.radius).into();
+        }
+        let mut incident = light.at(point.into());
+        // Exactly 1 for a light without an end and without a cone.
+        let within = (1.0 - (incident.distance / self.range).powi(4)).max(0.0);
+        let part = within * self.cone.map_or(1.0, |cone| cone.part(-Vec3::from(incident.l)));
+        if part <= 0.0 {
+            return None;
+        }
+        incident.irradiance = incident.irradiance * part;
+        Some((incident, light.position.into()))
+    }
 }
 
 impl Lights {
-    fn new(lights: &[Light]) -> Result<Self, Error> {
+    pub(crate) fn new(lights: &[Light]) -> Result<Self, Error> {
         let colour = |colour: Rgb| match <[f32; 3]>::from(colour).iter().all(|part| part.is_finite() && *part >= 0.0) {
             true => Ok(colour),
             false => {
@@ -285,18 +338,18 @@ struct Pass<'a> {
 }
 
 /// A point that is being shaded, seen from the unit direction `v`.
-struct Point<'a> {
-    triangle: &'a ShadingTriangle,
+pub(crate) struct Point<'a> {
+    pub(crate) triangle: &'a ShadingTriangle,
     weights: [f32; 3],
-    position: Vec3,
-    v: Vec3,
+    pub(crate) position: Vec3,
+    pub(crate) v: Vec3,
     /// The plane's normal on the viewer's side.
-    face: Vec3,
+    pub(crate) face: Vec3,
     /// Where rays start that leave on the viewer's side.
-    outside: Vec3,
+    pub(crate) outside: Vec3,
     /// Where rays start that pass through.
-    inside: Vec3,
-    frame: Frame,
+    pub(crate) inside: Vec3,
+    pub(crate) frame: Frame,
 }
 
 /// How far a ray starts from the surface, in units in the last place of the largest coordinate around.
@@ -306,13 +359,13 @@ struct Point<'a> {
 /// again at half of all points, and the surface is covered with a pattern of its own shadow (the test
 /// `without_an_offset_a_surface_shadows_itself` shows it). 32 units are a safe multiple, and are still only 2⁻¹⁸ of
 /// the size of the scene. A fixed distance would be too little far from the origin and too much in a small scene.
-const OFFSET_UNITS: f32 = 32.0;
+pub(crate) const OFFSET_UNITS: f32 = 32.0;
 
 /// The least cosine between shading normal and viewer.
 const LEAST_COSINE: f32 = 1e-3;
 
 impl<'a> Point<'a> {
-    fn new(triangle: &'a ShadingTriangle, hit: &Hit, direction: Vec3) -> Self {
+    pub(crate) fn new(triangle: &'a ShadingTriangle, hit: &Hit, direction: Vec3) -> Self {
         Self::with_offset(triangle, hit, direction, OFFSET_UNITS)
     }
 
@@ -344,7 +397,7 @@ impl<'a> Point<'a> {
     }
 
     /// Where shadow rays start: on the curved surface that the normals at the corners mean.
-    fn shadow_start(&self) -> Vec3 {
+    pub(crate) fn shadow_start(&self) -> Vec3 {
         let ShadingTriangle { corners, normals, .. } = self.triangle;
         let mut lift = Vec3::ZERO;
         for ((corner, normal), weight) in corners.iter().zip(normals).zip(self.weights) {
@@ -367,11 +420,11 @@ fn bent(normal: Vec3, v: Vec3, face: Vec3) -> Vec3 {
 }
 
 /// What textures need to know of a point.
-struct Textured {
-    uv: [Vec2; 2],
+pub(crate) struct Textured {
+    pub(crate) uv: [Vec2; 2],
     /// The side of the pixel on the surface, in both sets of texture coordinates.
-    footprint: [f32; 2],
-    color: [f32; 4],
+    pub(crate) footprint: [f32; 2],
+    pub(crate) color: [f32; 4],
     tangent: Vec3,
     /// ±1: on which side of normal and tangent the bitangent lies.
     hand: f32,
@@ -379,7 +432,7 @@ struct Textured {
 
 impl Textured {
     /// At a point that is seen with a pixel of this width.
-    fn new(scene: &Scene, point: &Point<'_>, width: f32) -> Self {
+    pub(crate) fn new(scene: &Scene, point: &Point<'_>, width: f32) -> Self {
         let [mesh, triangle] = point.triangle.place.map(|index| index as usize);
         let found = scene.meshes.get(mesh).and_then(|mesh| {
             let triangle = mesh.triangles.get(triangle)?;
@@ -416,7 +469,7 @@ impl Textured {
     ///
     /// A mapped normal that faces away from the viewer is bent as an interpolated one is: else bumps would have black
     /// outlines.
-    fn frame(&self, point: &Point<'_>, normal: Vec3, direction: Option<Vec2>) -> Frame {
+    pub(crate) fn frame(&self, point: &Point<'_>, normal: Vec3, direction: Option<Vec2>) -> Frame {
         if normal == Vec3::Z && direction.is_none() {
             return point.frame;
         }
@@ -436,7 +489,7 @@ impl Textured {
 
 /// Where in its cluster each light is sampled.
 #[derive(Debug, Clone, Copy)]
-struct Jitter([f32; 3]);
+pub(crate) struct Jitter(pub(crate) [f32; 3]);
 
 impl Jitter {
     /// For sample `sample` of a pixel: the additive recurrence R3 (Roberts, 2018), shifted by a hash of the pixel so
@@ -453,7 +506,7 @@ impl Jitter {
     }
 
     /// A point of the unit ball, evenly spread.
-    fn in_ball(self) -> Vec3 {
+    pub(crate) fn in_ball(self) -> Vec3 {
         let [a, b, c] = self.0;
         let z = 1.0 - 2.0 * a;
         let (sine, cosine) = (std::f32::consts::TAU * b).sin_cos();
@@ -475,7 +528,7 @@ struct Ray {
 }
 
 /// Light that has passed so many surfaces is taken as lost.
-const MOST_SURFACES: u32 = 256;
+pub(crate) const MOST_SURFACES: u32 = 256;
 
 /// A row of pixels being computed.
 ///
@@ -684,19 +737,8 @@ impl Pass<'_> {
         let v = frame.to_local(point.v.into());
         let start = point.shadow_start();
         for lamp in &self.lights.points {
-            let mut light = lamp.light;
-            if lamp.radius > 0.0 {
-                light.position = (Vec3::from(light.position) + jitter.in_ball() * lamp.radius).into();
-            }
-            let mut incident = light.at(point.position.into());
-            // Exactly 1 for a light without an end and without a cone.
-            let within = (1.0 - (incident.distance / lamp.range).powi(4)).max(0.0);
-            let part = within * lamp.cone.map_or(1.0, |cone| cone.part(-Vec3::from(incident.l)));
-            if part <= 0.0 {
-                continue;
-            }
-            incident.irradiance = incident.irradiance * part;
-            let way = Vec3::from(light.position) - start;
+            let Some((incident, position)) = lamp.reach(point.position, || jitter.in_ball()) else { continue };
+            let way = position - start;
             let way = Way { start, to_light: way.normalize_or_zero(), distance: way.length(), pixel, weight };
             queue.push(frame, incident, v, parameters, way);
         }
@@ -723,49 +765,17 @@ impl Pass<'_> {
             for (way, ((&r, &g), &b)) in queue.ways.iter().zip(r.iter().zip(g).zip(b)) {
                 let reflected = Rgb::new(r, g, b);
                 if !is_black(reflected) {
-                    let visible = self.visible(way.start, way.to_light, way.distance);
+                    let visible = self.renderer.visible(&self.materials, way.start, way.to_light, way.distance);
                     row.sums[way.pixel] = row.sums[way.pixel] + way.weight * (reflected * visible);
                 }
             }
             queue.clear();
         }
     }
-
-    /// The part of the light that arrives: the product of `1 − d` over the surfaces on the way.
-    fn visible(&self, start: Vec3, to_light: Vec3, distance: f32) -> f32 {
-        let renderer = self.renderer;
-        if !renderer.dissolved {
-            return f32::from(u8::from(renderer.bvh.is_free(start.into(), to_light.into(), distance)));
-        }
-        // From surface to surface, as the view does, so that a ray through a shared edge counts one triangle.
-        let (mut start, mut distance, mut visible) = (start, distance, 1.0);
-        for _ in 0..MOST_SURFACES {
-            let Some(hit) = renderer.bvh.nearest(start.into(), to_light.into(), distance) else {
-                return visible;
-            };
-            let triangle = &renderer.triangles[hit.triangle as usize];
-            let material = &self.materials[triangle.material as usize];
-            let point = Point::new(triangle, &hit, to_light);
-            let solid = match material.is_open() && material.is_textured() {
-                true => {
-                    let at = Textured::new(renderer.scene, &point, 0.0);
-                    material.opacity(at.uv, at.footprint, at.color[3])
-                }
-                false => material.dissolve,
-            };
-            visible *= 1.0 - solid;
-            if visible <= 0.0 {
-                return 0.0;
-            }
-            start = point.inside;
-            distance -= hit.t;
-        }
-        0.0
-    }
 }
 
 /// Exactly nothing. NaN is something.
-fn is_black(colour: Rgb) -> bool {
+pub(crate) fn is_black(colour: Rgb) -> bool {
     colour == Rgb::splat(0.0)
 }
 
