@@ -146,6 +146,20 @@ pub(crate) struct RenderArgs {
     /// ambient light
     #[arg(long, value_name = "RADIANCE", allow_hyphen_values = true, value_parser = parse_environment)]
     pub(crate) environment: Option<Background>,
+    /// Trace paths: light that comes by way of other surfaces too, from all that shines. The view's ambient light, which stands
+    /// for that, is left out
+    #[arg(long, conflicts_with_all = ["precision", "contact_sheet"])]
+    pub(crate) path: bool,
+    /// How many surfaces may turn a path, 0 to 1024
+    #[arg(long, default_value_t = 16, requires = "path", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    pub(crate) depth: u32,
+    /// Which random numbers the paths take: the same seed gives the same picture, on any number of threads
+    #[arg(long, default_value_t = 0, requires = "path", allow_negative_numbers = true)]
+    pub(crate) seed: u64,
+    /// The light around the scene, as a picture of the whole sphere: .exr, .pfm or .png, twice as wide as high, +y up and −z
+    /// in the middle
+    #[arg(long, value_name = "PICTURE", requires = "path", conflicts_with = "environment")]
+    pub(crate) environment_map: Option<PathBuf>,
     /// How bright colours are brought into the range: none, reinhard, aces-fit or pbr-neutral (.png only)
     #[arg(long, default_value_t = Tone::None, value_parser = parse_tone)]
     pub(crate) tone: Tone,
@@ -186,6 +200,8 @@ Examples:
   lobe render helmet.glb --size 640x640 --environment 0.2:0.8 --tone pbr-neutral -o helmet.png
   lobe render model.obj --camera 0,1,5:0,1,0 --light sun:1,1,1:3 -o model.png
   lobe render model.obj --material ggx-gold -o gold.png
+  lobe render scene.json --path --samples 256 -o paths.png
+  lobe render helmet.glb --path --environment-map sky.exr --samples 64 -o helmet.png
   lobe render --contact-sheet --model ward -o sheet.png";
 
 /// A precision by its name.

@@ -9,7 +9,7 @@ use crate::spec;
 use lobe_scene::image::{Depth, Display, MAX_PIXELS, Tone, check_ending};
 use lobe_scene::procedural::show_material;
 use lobe_scene::{
-    Image, Light, LoadOptions, Renderer, Scene, Settings, ShadingModel, View, check_writable, default_scene, load,
+    Image, Light, LoadOptions, Renderer, Scene, Settings, ShadingModel, View, check_writable, default_scene, load, path,
 };
 use serde_json::json;
 use std::io::Write as _;
@@ -63,9 +63,22 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
     view.camera = args.camera.or(view.camera);
     relight(&mut view, &scene, args, width as f32 / height as f32);
     let settings = Settings { width, height, samples: args.samples, precision: args.precision, ..Settings::default() };
+    let environment = args.environment_map.as_deref().map(path::Environment::load).transpose()?;
     let start = Instant::now();
     let renderer = prepare(&scene, quiet)?;
-    let image = take(&renderer, &view, &settings, &view.name, quiet)?;
+    let (image, nan_samples) = if args.path {
+        let Settings { width, height, samples, .. } = settings;
+        let (max_depth, seed) = (args.depth, args.seed);
+        let options =
+            path::Options { width, height, samples, seed, max_depth, environment, ..path::Options::default() };
+        let rendered = take_by_paths(&renderer, &view, &options, &view.name, quiet)?;
+        (rendered.image, rendered.nan_samples)
+    } else {
+        (take(&renderer, &view, &settings, &view.name, quiet)?, 0)
+    };
+    if nan_samples > 0 && !quiet {
+        let _ = writeln!(std::io::stderr(), "warning: {nan_samples} samples were no radiance and are left out");
+    }
     let seconds = start.elapsed().as_secs_f64();
     let depth = if args.deep { Depth::Sixteen } else { Depth::Eight };
     image.save(&args.output, &Display { exposure: view.exposure + args.exposure, depth, tone: args.tone })?;
@@ -79,6 +92,8 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
             "height": settings.height,
             "samples": settings.samples,
             "precision": settings.precision.name(),
+            "paths": args.path,
+            "nan_samples": nan_samples,
             "triangles": triangles,
             "seconds": seconds,
             "warnings": scene.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
@@ -88,7 +103,8 @@ pub(crate) fn run(args: &RenderArgs, quiet: bool, json: bool) -> Result<(), Fail
     if quiet {
         return Ok(());
     }
-    let size = format!("{}x{}, {} samples", settings.width, settings.height, settings.samples);
+    let of = if args.path { " of paths" } else { "" };
+    let size = format!("{}x{}, {} samples{of}", settings.width, settings.height, settings.samples);
     let line = format!("{path}: view `{}`, {size}, {triangles} triangles, {seconds:.2} s\n", view.name);
     output::print(line.as_bytes())
 }
@@ -148,4 +164,17 @@ pub(crate) fn take(
 ) -> Result<Image, Failure> {
     let bar = Progress::new(label, u64::from(settings.height), quiet);
     Ok(renderer.render(view, settings, Some(&|done, _| bar.set(done)))?)
+}
+
+/// Takes the picture by paths, with a progress bar if it takes long.
+pub(crate) fn take_by_paths(
+    renderer: &Renderer<'_>,
+    view: &View,
+    options: &path::Options,
+    label: &str,
+    quiet: bool,
+) -> Result<path::Rendered, Failure> {
+    let passes = path::rows(options);
+    let bar = Progress::new(label, passes, quiet);
+    Ok(path::render_with(renderer, view, options, Some(&|done, _| bar.set(done)))?)
 }

@@ -138,7 +138,7 @@ pub struct Rendered {
 
 /// Takes a picture. It uses the threads of the current `rayon` pool and is the same for any number of them.
 ///
-/// The progress counts rows of passes, of which there are several.
+/// The progress counts rows of passes, of which there are several: [`rows`] in all.
 ///
 /// # Errors
 /// [`Error::Setting`] for options, a scene, a camera, lights or an environment outside their domain.
@@ -148,21 +148,38 @@ pub fn render(
     options: &Options,
     progress: Option<Progress<'_>>,
 ) -> Result<Rendered, Error> {
-    let renderer = Renderer::new(scene)?;
-    let mut tracer = PathTracer::new(&renderer, view, options)?;
-    let rows = u64::from(options.height) * u64::from(options.samples.div_ceil(PASS));
+    render_with(&Renderer::new(scene)?, view, options, progress)
+}
+
+/// The same with a renderer that is there already.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_with(
+    renderer: &Renderer<'_>,
+    view: &View,
+    options: &Options,
+    progress: Option<Progress<'_>>,
+) -> Result<Rendered, Error> {
+    let mut tracer = PathTracer::new(renderer, view, options)?;
     let mut before = 0;
     while tracer.samples() < options.samples {
         let count = PASS.min(options.samples - tracer.samples());
         let report = |done: u64, _: u64| {
             if let Some(progress) = progress {
-                progress(before + done, rows);
+                progress(before + done, rows(options));
             }
         };
         tracer.advance(count, Some(&report));
         before += u64::from(options.height);
     }
     tracer.rendered()
+}
+
+/// How many rows of passes a picture of these options is: the end of the progress of [`render`].
+#[must_use]
+pub fn rows(options: &Options) -> u64 {
+    u64::from(options.height) * u64::from(options.samples.div_ceil(PASS))
 }
 
 /// Samples of each pixel in a pass of [`render`].
