@@ -28,9 +28,25 @@
 #![deny(clippy::indexing_slicing, clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable)]
 #![cfg_attr(not(test), deny(clippy::std_instead_of_core, clippy::alloc_instead_of_core))]
 
+#[cfg(feature = "simd")]
+#[allow(clippy::incompatible_msrv, reason = "the feature needs Rust 1.89, as its document says")]
+pub mod batch;
+mod cosine;
+mod delta;
 mod diffuse;
+pub mod facets;
+mod layered;
 pub mod map;
+mod microfacet;
 pub mod mis;
+mod mixture;
+mod rules;
 mod sample;
+mod special;
 
+pub use cosine::ByCosine;
+pub use microfacet::{By, SampleBy};
 pub use sample::{Outcome, Sample, Sampled};
+
+#[cfg(test)]
+extern crate std;
