@@ -1,8 +1,8 @@
 //! Microfacet lobes: a facet is drawn, and the light is where it mirrors the viewer to.
 
 use crate::facets::{Facets, SampleNormals};
-use crate::mixture::{Part, blend, one_of_two, probability};
 use crate::map::{cosine_hemisphere, cosine_hemisphere_pdf};
+use crate::mixture::{Part, blend, one_of_two, probability};
 use crate::rules::{above, incidence_of, nan_of, upwards};
 use crate::{Sample, Sampled};
 use core::f64::consts::FRAC_1_PI;
@@ -108,7 +108,13 @@ pub(crate) fn mirrored<R: Real, D, M: Facets<R, D>>(distribution: &D, method: &M
 
 /// A grey lobe of facets without Fresnel's term, as one part of a mixture.
 #[inline(always)]
-pub(crate) fn grey_value_and_pdf<R, D, G, M>(distribution: &D, masking: &G, method: &M, l: Vec3<R>, v: Vec3<R>) -> (R, R)
+pub(crate) fn grey_value_and_pdf<R, D, G, M>(
+    distribution: &D,
+    masking: &G,
+    method: &M,
+    l: Vec3<R>,
+    v: Vec3<R>,
+) -> (R, R)
 where
     R: Real,
     D: Distribution<R>,

@@ -14,7 +14,8 @@ use lobe::{Facet, Real, Vec3};
 /// first guess, both after Jakob, "An Improved Visible Normal Sampling Routine for the Beckmann Distribution", 2014: five steps of
 /// Newton's method, each halved where it would leave the bracket.
 ///
-/// What is drawn has the distribution to 2e-6 of it (test `the_slopes_have_their_distribution`), and ends at a slope of 3.8 widths, beyond which
+/// What is drawn has the distribution to 8e-7 of it in `f32`, in `f64` for `u` up to `1 − 1e-13` (test
+/// `the_slopes_have_their_distribution`), and ends at a slope of 3.8 widths, beyond which
 /// there are 6e-8 of the facets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VisibleSlopes;
@@ -96,6 +97,8 @@ mod tests {
                 // Evenly, and dense at both ends.
                 let x = (f64::from(i) + 0.5) / 20_000.0;
                 for u in [x, x.powi(4), 1.0 - x.powi(4)] {
+                    // Nearer to 1 the density has nearly ended, and five halvings are too few.
+                    let u = u.min(1.0 - 1e-13);
                     let error = cumulated(cos, sin, slope(cos, sin, u)) - u;
                     worst.0 = worst.0.max(error.abs());
                     let (c, s, u) = (cos as f32, sin as f32, (u as f32).min(1.0 - f32::EPSILON / 2.0));
@@ -106,6 +109,6 @@ mod tests {
             }
         }
         std::println!("distribution of the slopes: f64 {:e}, f32 {:e}", worst.0, worst.1);
-        assert!(worst.0 < 2e-6 && worst.1 < 2e-6, "{worst:?}");
+        assert!(worst.0 < 8e-7 && worst.1 < 8e-7, "{worst:?}");
     }
 }

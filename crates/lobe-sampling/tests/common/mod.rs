@@ -7,30 +7,34 @@ use lobe_energy::directional_albedo_to;
 use lobe_sampling::Sample;
 
 /// A lobe that can be evaluated and sampled.
-pub trait Lobe<R: Real>: Brdf<R> + Sample<R> {}
+pub(crate) trait Lobe<R: Real>: Brdf<R> + Sample<R> {}
 impl<R: Real, L: Brdf<R> + Sample<R>> Lobe<R> for L {}
 
 /// A lobe with its name.
-pub type Named<R> = (String, Box<dyn Lobe<R>>);
+pub(crate) type Named<R> = (String, Box<dyn Lobe<R>>);
 
 /// The unit vector at a cosine and an azimuth.
-pub fn at(cos: f64, azimuth: f64) -> Vec3<f64> {
+pub(crate) fn at(cos: f64, azimuth: f64) -> Vec3<f64> {
     let sin = ((1.0 - cos) * (1.0 + cos)).sqrt();
     Vec3::new(sin * azimuth.cos(), sin * azimuth.sin(), cos)
 }
 
 /// The same direction in `f32`.
-pub fn single(v: Vec3<f64>) -> Vec3<f32> {
+pub(crate) fn single(v: Vec3<f64>) -> Vec3<f32> {
     v.map(|x| x as f32)
 }
 
-/// The points of a lattice (Kronecker's, by the roots of x⁴ = x + 1), the same in every run.
-pub fn points(count: usize) -> impl Iterator<Item = [f64; 3]> {
-    const ROOT: f64 = 1.220_744_084_605_759_5;
+/// The points of Halton, in the bases 2, 3 and 5: the same in every run.
+pub(crate) fn points(count: usize) -> impl Iterator<Item = [f64; 3]> {
     (1..=count).map(|i| {
-        [1, 2, 3].map(|power| {
-            let x = 0.5 + i as f64 * ROOT.powi(-power);
-            x - x.floor()
+        [2, 3, 5].map(|base| {
+            let (mut left, mut digit, mut x) = (i, 1.0, 0.0);
+            while left > 0 {
+                digit /= base as f64;
+                x += digit * (left % base) as f64;
+                left /= base;
+            }
+            x
         })
     })
 }
@@ -47,28 +51,50 @@ impl Brdf<f64> for Density<'_> {
     }
 }
 
-/// The integral of the density, and the parts of the samples that are rejected and deltas; together they are 1.
-pub fn masses(sampler: &dyn Sample<f64>, v: Vec3<f64>, count: usize) -> [f64; 3] {
-    let integral = directional_albedo_to(2e-5, &Density(sampler), v);
-    assert!(integral.error < 3e-4, "{integral:?} at {v:?}");
+/// Parts of the samples that are rejected, and that are deltas.
+fn without_density(sampler: &dyn Sample<f64>, v: Vec3<f64>, count: usize) -> [f64; 2] {
     let (mut rejected, mut deltas) = (0, 0);
     for u in points(count) {
         let sample = sampler.sample(v, u);
         rejected += usize::from(sample.rejected);
         deltas += usize::from(sample.delta && !sample.rejected);
     }
-    [integral.value.g, rejected as f64 / count as f64, deltas as f64 / count as f64]
+    [rejected, deltas].map(|part| part as f64 / count as f64)
+}
+
+/// [`density_is_normalised`] for a density with steps, which mislead a rule of high order: by a fine grid.
+pub(crate) fn stepped_density_is_normalised(name: &str, sampler: &dyn Sample<f64>, v: Vec3<f64>) {
+    const SIDE: usize = 1600;
+    let mut integral = 0.0;
+    for i in 0..SIDE {
+        let cos = (i as f64 + 0.5) / SIDE as f64;
+        for j in 0..SIDE {
+            let azimuth = (j as f64 + 0.5) / SIDE as f64 * core::f64::consts::TAU;
+            integral += sampler.pdf(at(cos, azimuth), v) * core::f64::consts::TAU;
+        }
+    }
+    integral /= (SIDE * SIDE) as f64;
+    let [rejected, deltas] = without_density(sampler, v, 1 << 16);
+    assert!((integral + rejected + deltas - 1.0).abs() < 1e-3, "{name} at {v:?}: {integral} + {rejected} + {deltas}");
+}
+
+/// The integral of the density, and the parts of the samples that are rejected and deltas; together they are 1.
+pub(crate) fn masses(sampler: &dyn Sample<f64>, v: Vec3<f64>, count: usize) -> [f64; 3] {
+    let integral = directional_albedo_to(2e-5, &Density(sampler), v);
+    assert!(integral.error < 3e-4, "{integral:?} at {v:?}");
+    let [rejected, deltas] = without_density(sampler, v, count);
+    [integral.value.g, rejected, deltas]
 }
 
 /// The density integrates to 1 less what is rejected or a delta.
-pub fn density_is_normalised(name: &str, sampler: &dyn Sample<f64>, v: Vec3<f64>) {
+pub(crate) fn density_is_normalised(name: &str, sampler: &dyn Sample<f64>, v: Vec3<f64>) {
     let [integral, rejected, deltas] = masses(sampler, v, 1 << 16);
     let error = integral + rejected + deltas - 1.0;
     assert!(error.abs() < 1e-3, "{name} at {v:?}: {integral} + {rejected} + {deltas}");
 }
 
 /// The density of a sample is what `pdf` says, value over density is its weight, to `bound`, and the value is the lobe's.
-pub fn samples_are_consistent(name: &str, lobe: &dyn Lobe<f64>, v: Vec3<f64>, bound: f64) {
+pub(crate) fn samples_are_consistent(name: &str, lobe: &dyn Lobe<f64>, v: Vec3<f64>, bound: f64) {
     let mut scattered = 0;
     for u in points(4096) {
         let sample = lobe.sample(v, u);
@@ -83,7 +109,9 @@ pub fn samples_are_consistent(name: &str, lobe: &dyn Lobe<f64>, v: Vec3<f64>, bo
         let (value, pdf) = lobe.eval_cos_pdf(sample.l, v);
         assert_eq!(pdf, sample.pdf, "{name} at {v:?}, {u:?}");
         let exact = lobe.eval_cos(sample.l, v);
-        for (weight, (value, exact)) in channels(sample.weight).into_iter().zip(channels(value).into_iter().zip(channels(exact))) {
+        for (weight, (value, exact)) in
+            channels(sample.weight).into_iter().zip(channels(value).into_iter().zip(channels(exact)))
+        {
             assert!((value - exact).abs() <= bound * exact, "{name} at {v:?}, {u:?}: {value} {exact}");
             if pdf > 0.0 && exact > 1e-290 {
                 assert!((weight * pdf / exact - 1.0).abs() < bound, "{name} at {v:?}, {u:?}: {weight} {value} {pdf}");
@@ -94,7 +122,7 @@ pub fn samples_are_consistent(name: &str, lobe: &dyn Lobe<f64>, v: Vec3<f64>, bo
 }
 
 /// The largest relative difference of a weight in `f32` to value over density in `f64` of the same directions.
-pub fn error_of_weight(lobe: &dyn Lobe<f32>, exact: &dyn Lobe<f64>, v: Vec3<f64>) -> f64 {
+pub(crate) fn error_of_weight(lobe: &dyn Lobe<f32>, exact: &dyn Lobe<f64>, v: Vec3<f64>) -> f64 {
     let v = single(v);
     let mut worst = 0.0_f64;
     for u in points(2048) {
@@ -111,7 +139,7 @@ pub fn error_of_weight(lobe: &dyn Lobe<f32>, exact: &dyn Lobe<f64>, v: Vec3<f64>
 }
 
 /// The mean weight of the samples is the directional albedo, within four standard errors.
-pub fn weights_sum_to_the_albedo(name: &str, sampler: &dyn Lobe<f64>, v: Vec3<f64>) {
+pub(crate) fn weights_sum_to_the_albedo(name: &str, sampler: &dyn Lobe<f64>, v: Vec3<f64>) {
     const COUNT: usize = 1 << 15;
     let (mut sum, mut squares) = (0.0, 0.0);
     for u in points(COUNT) {
@@ -132,7 +160,7 @@ pub fn weights_sum_to_the_albedo(name: &str, sampler: &dyn Lobe<f64>, v: Vec3<f6
         }
     }
     let albedo = directional_albedo_to(2e-5, &Value(sampler), v);
-    // The lattice and the quadrature have errors of their own, where every weight is the same.
+    // The points and the quadrature have errors of their own, where every weight is the same.
     let room = 4.0 * deviation + albedo.error + 1e-4 * mean;
     assert!((mean - albedo.value.g).abs() < room, "{name} at {v:?}: {mean} ± {deviation}, albedo {albedo:?}");
 }
@@ -142,13 +170,13 @@ fn channels<R>(color: Rgb<R>) -> [R; 3] {
 }
 
 /// Numbers of the square at its ends.
-pub const ENDS: [f64; 6] = [0.0, 1e-40, 1.0 / 16_777_216.0, 0.5, 0.750_001, 1.0 - 1.0 / 16_777_216.0];
+pub(crate) const ENDS: [f64; 6] = [0.0, 1e-40, 1.0 / 16_777_216.0, 0.5, 0.750_001, 1.0 - 1.0 / 16_777_216.0];
 
 /// Viewers, down to the horizon.
-pub const COSINES: [f64; 7] = [1.0, 0.999_999, 0.7, 0.1, 1e-3, 1e-6, 1e-20];
+pub(crate) const COSINES: [f64; 7] = [1.0, 0.999_999, 0.7, 0.1, 1e-3, 1e-6, 1e-20];
 
 /// At every corner of the square, for every viewer, a sample is finite, its weight not negative and its direction a unit vector.
-pub fn ends_are_finite<R: Real<Mask = bool> + Into<f64>>(name: &str, sampler: &dyn Sample<R>, witness: R) {
+pub(crate) fn ends_are_finite<R: Real<Mask = bool> + Into<f64>>(name: &str, sampler: &dyn Sample<R>, witness: R) {
     let number = |x: f64| witness.lift(x);
     let epsilon = if number(1.0 + 1e-12).into() == 1.0 { 2e-6 } else { 1e-14 };
     for cos in COSINES {
@@ -179,7 +207,11 @@ pub fn ends_are_finite<R: Real<Mask = bool> + Into<f64>>(name: &str, sampler: &d
 }
 
 /// A NaN in a component of the viewer or of `u` shows in the weight and in no other way; below the horizon nothing is drawn.
-pub fn nan_shows_and_below_is_nothing<R: Real<Mask = bool> + Into<f64>>(name: &str, sampler: &dyn Sample<R>, witness: R) {
+pub(crate) fn nan_shows_and_below_is_nothing<R: Real<Mask = bool> + Into<f64>>(
+    name: &str,
+    sampler: &dyn Sample<R>,
+    witness: R,
+) {
     let number = |x: f64| witness.lift(x);
     let is_nan = |x: R| Into::<f64>::into(x).is_nan();
     let v = at(0.6, 0.4);
