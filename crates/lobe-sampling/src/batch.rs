@@ -35,11 +35,15 @@ where
 {
     #[inline(always)]
     fn apply(&self, (v, (x, y, z)): (Vec3<R>, (R, R, R))) -> (Vec3<R>, Rgb<R>, R) {
-        let lobe = self.0.carry(
-            &#[inline(always)]
-            |c| v.z.lift(f64::from(c)),
-        );
+        let lobe = self.0.carry(&lift(v.z));
         let Sampled { l, weight, pdf, delta, .. } = lobe.sample(v, [x, y, z]);
         (l, weight, R::select(delta, pdf.lift(f64::INFINITY), pdf))
     }
+}
+
+/// A number of the scalar in the shape of `x`; `f64` holds it exactly.
+#[inline(always)]
+fn lift<R: Real>(x: R) -> impl Fn(f32) -> R {
+    #[inline(always)]
+    move |c| x.lift(f64::from(c))
 }
