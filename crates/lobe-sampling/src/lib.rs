@@ -18,6 +18,18 @@
 //! }
 //! ```
 //!
+//! # What is sampled how
+//!
+//! | lobe | by |
+//! |---|---|
+//! | [`Microfacet`](lobe::Microfacet), [`CookTorrance`](lobe::CookTorrance), [`Blinn1977`](lobe::Blinn1977) | facets: visible ones for GGX and Beckmann, [`facets`] has the methods; [`by`](SampleBy::by) selects one |
+//! | [`MetallicRoughness`](lobe::MetallicRoughness) | facets, or the cosine |
+//! | [`Sum`](lobe::Sum), [`Coat`](lobe::Coat), [`Clearcoat`](lobe::Clearcoat) | one of their parts, with the density of the whole |
+//! | [`SheenLayer`](lobe::SheenLayer), [`KullaConty`](lobe_energy::KullaConty), [`FdezAguera`](lobe_energy::FdezAguera), [`CoupledDiffuse`](lobe_energy::CoupledDiffuse) | a part, or the cosine |
+//! | [`Turquin`](lobe_energy::Turquin) | facets |
+//! | [`Mirror`](lobe::Mirror), [`Black`](lobe::Black) | a delta; nothing |
+//! | any other [`Brdf`](lobe::Brdf) | [`ByCosine`] |
+//!
 //! # Conventions
 //!
 //! Those of `lobe`: directions point away, in the local frame, `n = +z`. The viewer `v` is given and the light `l` is chosen, as a path

@@ -7,7 +7,7 @@ use lobe::{Real, Rgb, Sum, Vec3};
 /// The least part of the samples that each of two lobes gets, if it reflects anything.
 ///
 /// Guesses are wrong, and where a lobe that is drawn too seldom is the bright one, weights are `1/probability`. With this floor the
-/// weight of a sample is at most 16 times that of its own lobe; without it a lobe whose guess vanishes next to the other's would
+/// weight of a sample is at most 16 times the larger of both lobes' own; without it a lobe whose guess vanishes next to the other's would
 /// hardly be drawn at all, while its value is there (test `no_part_is_starved`).
 const FLOOR: f64 = 1.0 / 16.0;
 
@@ -117,8 +117,8 @@ pub(crate) fn one_of_two<R: Real>(
 const LAST: f64 = 1.0 - 1.0 / 16_777_216.0;
 
 /// One of both is drawn, in proportion to what they are guessed to reflect, at least every sixteenth time. The density is that of the
-/// mixture, so that a direction that both lobes could have drawn counts right whichever did: where one is sharp and the other wide
-/// no weight is larger than 16 times that of the lobe itself.
+/// mixture, so that a direction that both lobes could have drawn counts right whichever did: no weight is larger than 16 times the
+/// larger of both lobes' own there.
 impl<R: Real, A: Sample<R>, B: Sample<R>> Sample<R> for Sum<A, B> {
     #[inline(always)]
     fn sample(&self, v: Vec3<R>, u: [R; 3]) -> Sampled<R> {

@@ -36,7 +36,7 @@ macro_rules! same_bits {
         let column = |f: fn(&(Vec3<f32>, [f32; 3])) -> f32| inputs.iter().map(f).collect::<Vec<_>>();
         let v = [column(|i| i.0.x), column(|i| i.0.y), column(|i| i.0.z)];
         let u = [column(|i| i.1[0]), column(|i| i.1[1]), column(|i| i.1[2])];
-        for level in levels() {
+        for (name, level) in levels(Batch::new().level()).chain([("best", Batch::new().level())]) {
             let mut out = core::array::from_fn::<_, 7, _>(|_| vec![7.0_f32; inputs.len()]);
             let [x, y, z, r, g, b, pdf] = &mut out;
             let l = Vec3 { x: &mut x[..], y: &mut y[..], z: &mut z[..] };
@@ -52,7 +52,7 @@ macro_rules! same_bits {
                 let lanes = core::array::from_fn::<_, 7, _>(|k| out[k][i]);
                 assert!(
                     scalar.iter().zip(lanes).all(|(&a, b)| same(a, b)),
-                    "{level:?}: {v:?} {u:?}\n{scalar:?}\n{lanes:?}"
+                    "{name}: {v:?} {u:?}\n{scalar:?}\n{lanes:?}"
                 );
             }
         }
