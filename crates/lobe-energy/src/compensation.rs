@@ -79,6 +79,12 @@ impl<R: Real, F: Fresnel<R>, E: GgxAlbedo<R>> KullaConty<F, R, E> {
         Self { single: Microfacet::new(Ggx::new(alpha), SmithCorrelated, fresnel), energy, scale }
     }
 
+    /// The lobe of the single reflections.
+    #[inline(always)]
+    pub fn single(&self) -> &Microfacet<Ggx<R>, SmithCorrelated, F> {
+        &self.single
+    }
+
     #[inline(always)]
     fn further(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R> {
         let losses = self.energy.loss(l.z) * self.energy.loss(v.z);
@@ -135,25 +141,35 @@ impl<R: Real, F: Fresnel<R>, E: GgxAlbedo<R>> Turquin<F, R, E> {
         Self { single: Microfacet::new(Ggx::new(alpha), SmithCorrelated, fresnel), energy: E::new(alpha), f0 }
     }
 
+    /// The lobe of the single reflections.
     #[inline(always)]
-    fn brighter(&self, single: Rgb<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+    pub fn single(&self) -> &Microfacet<Ggx<R>, SmithCorrelated, F> {
+        &self.single
+    }
+
+    /// What the single reflections are multiplied by, `1 + F0 (1 − E(v))/E(v)`; 1 below the horizon.
+    #[inline(always)]
+    pub fn gain(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
         let one = v.z.lift(1.0);
         let loss = self.energy.loss(v.z);
         // Selected before the product: below the horizon the loss is not a number.
         let gain = above_horizon(l, v, loss / (one - loss));
-        single * self.f0.map(|f0| (f0 * gain).plus(1.0))
+        self.f0.map(
+            #[inline(always)]
+            |f0| (f0 * gain).plus(1.0),
+        )
     }
 }
 
 impl<R: Real, F: Fresnel<R>, E: GgxAlbedo<R>> Brdf<R> for Turquin<F, R, E> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        self.brighter(self.single.eval(l, v), l, v)
+        self.single.eval(l, v) * self.gain(l, v)
     }
 
     #[inline(always)]
     fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        self.brighter(self.single.eval_cos(l, v), l, v)
+        self.single.eval_cos(l, v) * self.gain(l, v)
     }
 }
 
@@ -185,6 +201,12 @@ impl<R: Real> FdezAguera<R> {
     pub fn new(alpha: Alpha<R>, f0: Rgb<R>, rho: Rgb<R>) -> Self {
         let single = Microfacet::new(Ggx::new(alpha), SmithCorrelated, lobe::fresnel::Schlick::new(f0));
         Self { single, table: GgxTable::new(alpha), f0, rho }
+    }
+
+    /// The lobe of the single reflections.
+    #[inline(always)]
+    pub fn single(&self) -> &Microfacet<Ggx<R>, SmithCorrelated, lobe::fresnel::Schlick<R>> {
+        &self.single
     }
 
     /// What is added to the single reflection, in sr⁻¹.
@@ -265,6 +287,12 @@ impl<R: Real> CoupledDiffuse<R> {
         }
         coupled.scale = rho.map(|rho| rho.times(FRAC_1_PI) / passed);
         coupled
+    }
+
+    /// The lobe of the single reflections.
+    #[inline(always)]
+    pub fn single(&self) -> &Microfacet<Ggx<R>, SmithCorrelated, lobe::fresnel::Schlick<R>> {
+        &self.single
     }
 
     /// `1 − E(μ)` of the specular lobe.

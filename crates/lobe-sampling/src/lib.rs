@@ -18,6 +18,18 @@
 //! }
 //! ```
 //!
+//! # What is sampled how
+//!
+//! | lobe | by |
+//! |---|---|
+//! | [`Microfacet`](lobe::Microfacet), [`CookTorrance`](lobe::CookTorrance), [`Blinn1977`](lobe::Blinn1977) | facets: visible ones for GGX and Beckmann, [`facets`] has the methods; [`by`](SampleBy::by) selects one |
+//! | [`MetallicRoughness`](lobe::MetallicRoughness) | facets, or the cosine |
+//! | [`Sum`](lobe::Sum), [`Coat`](lobe::Coat), [`Clearcoat`](lobe::Clearcoat) | one of their parts, with the density of the whole |
+//! | [`SheenLayer`](lobe::SheenLayer), [`KullaConty`](lobe_energy::KullaConty), [`FdezAguera`](lobe_energy::FdezAguera), [`CoupledDiffuse`](lobe_energy::CoupledDiffuse) | a part, or the cosine |
+//! | [`Turquin`](lobe_energy::Turquin) | facets |
+//! | [`Mirror`](lobe::Mirror), [`Black`](lobe::Black) | a delta; nothing |
+//! | any other [`Brdf`](lobe::Brdf) | [`ByCosine`] |
+//!
 //! # Conventions
 //!
 //! Those of `lobe`: directions point away, in the local frame, `n = +z`. The viewer `v` is given and the light `l` is chosen, as a path
@@ -28,9 +40,25 @@
 #![deny(clippy::indexing_slicing, clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable)]
 #![cfg_attr(not(test), deny(clippy::std_instead_of_core, clippy::alloc_instead_of_core))]
 
+#[cfg(feature = "simd")]
+#[allow(clippy::incompatible_msrv, reason = "the feature needs Rust 1.89, as its document says")]
+pub mod batch;
+mod cosine;
+mod delta;
 mod diffuse;
+pub mod facets;
+mod layered;
 pub mod map;
+mod microfacet;
 pub mod mis;
+mod mixture;
+mod rules;
 mod sample;
+mod special;
 
+pub use cosine::ByCosine;
+pub use microfacet::{By, SampleBy};
 pub use sample::{Outcome, Sample, Sampled};
+
+#[cfg(test)]
+extern crate std;

@@ -45,6 +45,18 @@ impl<R: Real, D: Distribution<R>, F: Fresnel<R>> Blinn1977<D, F, R> {
         self.ks
     }
 
+    /// What the value is of [`modern`](Self::modern)'s: `4 ks/D(n)`.
+    #[inline(always)]
+    pub fn factor(&self) -> Rgb<R> {
+        self.factor
+    }
+
+    /// The same terms as [`modern`](Self::modern), by reference.
+    #[inline(always)]
+    pub fn terms(&self) -> &Microfacet<D, VCavity, F> {
+        &self.terms
+    }
+
     /// The same terms with the factor `1/4` and a normalised distribution, and without `ks`.
     #[inline(always)]
     pub fn modern(self) -> Microfacet<D, VCavity, F> {

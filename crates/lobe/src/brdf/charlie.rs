@@ -20,7 +20,7 @@ use core::f64::consts::TAU;
 /// `12 u t` with `t = |ln(D/D_max)|`; `D` is 0 for `t` above 87.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Charlie<R = f32> {
-    color: Rgb<R>,
+    pub(crate) color: Rgb<R>,
     alpha: Alpha<R>,
     /// `1/α`.
     exponent: R,

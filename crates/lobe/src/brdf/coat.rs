@@ -43,26 +43,44 @@ impl<T, F, B> Coat<T, F, B> {
         Self { top, interface, base }
     }
 
+    /// The lobe on top.
     #[inline(always)]
-    fn split<R: Real>(&self, base: Rgb<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R>
+    pub fn top(&self) -> &T {
+        &self.top
+    }
+
+    /// The Fresnel term of the coat's interface.
+    #[inline(always)]
+    pub fn interface(&self) -> &F {
+        &self.interface
+    }
+
+    /// The lobe under the coat.
+    #[inline(always)]
+    pub fn base(&self) -> &B {
+        &self.base
+    }
+
+    /// What the coat leaves of the base: `(1 − F(n·l)) (1 − F(n·v))`, 0 below the horizon.
+    #[inline(always)]
+    pub fn transmitted<R: Real>(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R>
     where
         F: Fresnel<R>,
     {
         let t = self.interface.transmitted(Incidence::of(l)) * self.interface.transmitted(Incidence::of(v));
         // Below the horizon the base is 0, and a Fresnel term that is not a number there must not spoil it.
-        let t = Rgb::new(above_horizon(l, v, t.r), above_horizon(l, v, t.g), above_horizon(l, v, t.b));
-        base * t
+        Rgb::new(above_horizon(l, v, t.r), above_horizon(l, v, t.g), above_horizon(l, v, t.b))
     }
 }
 
 impl<R: Real, T: Brdf<R>, F: Fresnel<R>, B: Brdf<R>> Brdf<R> for Coat<T, F, B> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        self.top.eval(l, v) + self.split(self.base.eval(l, v), l, v)
+        self.top.eval(l, v) + self.base.eval(l, v) * self.transmitted(l, v)
     }
 
     #[inline(always)]
     fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        self.top.eval_cos(l, v) + self.split(self.base.eval_cos(l, v), l, v)
+        self.top.eval_cos(l, v) + self.base.eval_cos(l, v) * self.transmitted(l, v)
     }
 }

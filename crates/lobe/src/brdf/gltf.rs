@@ -103,14 +103,23 @@ impl<R: Real, G, D> MetallicRoughness<R, G, D> {
         Self { f0: Rgb::new(f0.r.min(one), f0.g.min(one), f0.b.min(one)), specular: weight, ..self }
     }
 
+    /// The distribution of the facets.
     #[inline(always)]
-    fn weighted(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R>
-    where
-        D: Distribution<R>,
-        G: Masking<R, D>,
-    {
-        let (specular, incidence) = Facet::between(l, v).specular(&self.distribution, &self.masking, weight);
-        let one = weight.lift(1.0);
+    pub fn distribution(&self) -> &D {
+        &self.distribution
+    }
+
+    /// The masking of the facets.
+    #[inline(always)]
+    pub fn masking(&self) -> &G {
+        &self.masking
+    }
+
+    /// What the facets reflect at this angle, `(1 − metallic) w F_d + metallic F_m`, and the part of the base's colour that
+    /// leaves it diffusely, `(1 − metallic) (1 − w max(F_d))`.
+    #[inline(always)]
+    pub fn split(&self, incidence: Incidence<R>) -> (Rgb<R>, R) {
+        let one = incidence.cos.lift(1.0);
         let (x5, one_minus_x5) = (fifth_power(incidence.one_minus_cos), one_minus_fifth_power(incidence));
 
         let white = Rgb::splat(one);
@@ -121,7 +130,24 @@ impl<R: Real, G, D> MetallicRoughness<R, G, D> {
         // 1 − w max(F_d), of positive terms only.
         let max_f0 = self.f0.r.max(self.f0.g).max(self.f0.b);
         let transmitted = (one - self.specular) + self.specular * (one - max_f0) * one_minus_x5;
-        let diffuse = transmitted * (one - self.metallic) * weight.times(FRAC_1_PI);
+        (f, transmitted * (one - self.metallic))
+    }
+
+    /// The colour of the base.
+    #[inline(always)]
+    pub fn base_color(&self) -> Rgb<R> {
+        self.base_color
+    }
+
+    #[inline(always)]
+    fn weighted(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R>
+    where
+        D: Distribution<R>,
+        G: Masking<R, D>,
+    {
+        let (specular, incidence) = Facet::between(l, v).specular(&self.distribution, &self.masking, weight);
+        let (f, transmitted) = self.split(incidence);
+        let diffuse = transmitted * weight.times(FRAC_1_PI);
 
         self.base_color * above_horizon(l, v, diffuse) + f * above_horizon(l, v, specular)
     }
@@ -175,6 +201,25 @@ impl<B, R: Real> Clearcoat<B, R> {
         Self { base, clearcoat, distribution: Ggx::new(alpha) }
     }
 
+    /// The lobe under the coat.
+    #[inline(always)]
+    pub fn base(&self) -> &B {
+        &self.base
+    }
+
+    /// The distribution of the coat's facets; their masking is [`SmithSeparable`].
+    #[inline(always)]
+    pub fn distribution(&self) -> &Ggx<R> {
+        &self.distribution
+    }
+
+    /// What the coat reflects to `v`: `c (0.04 + 0.96 (1 − n·v)⁵)`, for `n·v` from 0 to 1.
+    #[inline(always)]
+    pub fn reflected(&self, v: Vec3<R>) -> R {
+        let x5 = fifth_power(Incidence::of(v).one_minus_cos);
+        self.clearcoat * x5.times(0.96).plus(0.04)
+    }
+
     /// The part of what is below the coat that is seen through it from `v`: `1 − c (0.04 + 0.96 (1 − n·v)⁵)`, which is the
     /// base's share, and that of its emission.
     ///
@@ -187,8 +232,7 @@ impl<B, R: Real> Clearcoat<B, R> {
 
     #[inline(always)]
     fn coated(&self, base: Rgb<R>, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R> {
-        let x5 = fifth_power(Incidence::of(v).one_minus_cos);
-        let reflected = self.clearcoat * x5.times(0.96).plus(0.04);
+        let reflected = self.reflected(v);
         let transmitted = self.transmitted(v);
         let (specular, _) = Facet::between(l, v).specular(&self.distribution, &SmithSeparable, weight);
         let coat = above_horizon(l, v, specular * reflected);

@@ -105,7 +105,7 @@ impl<R: Real> LowMicrofacet<R> {
     #[inline(always)]
     fn weighted(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R> {
         let facet = Facet::between(l, v);
-        let (h, cos_d) = (facet.normal(), facet.cos);
+        let (h, cos_d) = (facet.normal(), facet.cos());
         let from_peak = (h.x.squared() + h.y.squared()) / h.z.plus(1.0);
         let visibility = VCavity.visibility(&(), l, v, h, cos_d, weight.times(4.0 / PI));
         let lobe = above_horizon(l, v, abc(self.b, self.c, from_peak) * visibility);

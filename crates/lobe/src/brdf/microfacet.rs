@@ -107,8 +107,18 @@ pub type AshikhminPremozeShirley<D, F> = Microfacet<D, SmithSeparable, F>;
 /// Its normal has the direction of `l + v`, each component with a relative error of at most `4u`, whatever cancels in
 /// the sum: the inputs are exact, and the sum rounds once. This is the half vector of the directions *as they are given*;
 /// see [`crate::halfway`] for the one that takes rounded lengths out.
-#[derive(Clone, Copy)]
-pub(crate) struct Facet<R> {
+///
+/// ```
+/// use lobe::{Alpha, Facet, Vec3, distribution::Ggx, masking::SmithCorrelated};
+/// let (l, v) = (Vec3::new(0.6_f32, 0.0, 0.8), Vec3::new(-0.6, 0.0, 0.8));
+/// let facet = Facet::between(l, v);
+/// assert_eq!(facet.normal().z, 1.0);
+/// assert_eq!(facet.cos(), 0.8);
+/// let terms = facet.terms(&Ggx::new(Alpha(1.0)), &SmithCorrelated, l.z);
+/// assert!((terms.d - core::f32::consts::FRAC_1_PI).abs() < 1e-6);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Facet<R> {
     l: Vec3<R>,
     v: Vec3<R>,
     /// `(l + v) 2⁶²`: between opposite directions on the horizon the sum is as small as the cosines, and so its square
@@ -117,12 +127,24 @@ pub(crate) struct Facet<R> {
     /// `|s|²`.
     length2: R,
     /// `cos θ_d = l·h = |l + v|/2`, at most 1: of rounded unit vectors the sum may be longer than 2.
-    pub(crate) cos: R,
+    cos: R,
+}
+
+/// The terms of a microfacet lobe for one pair of directions, apart: its value is `F d visibility`.
+#[derive(Clone, Copy, Debug)]
+pub struct FacetTerms<R> {
+    /// `D(h)` in sr⁻¹.
+    pub d: R,
+    /// `weight · G/(4 (n·l)(n·v))`.
+    pub visibility: R,
+    /// The angle of incidence on the facet, of which `F` is a function.
+    pub incidence: Incidence<R>,
 }
 
 impl<R: Real> Facet<R> {
+    /// The facet that mirrors `l` to `v`, unit vectors above the horizon.
     #[inline(always)]
-    pub(crate) fn between(l: Vec3<R>, v: Vec3<R>) -> Self {
+    pub fn between(l: Vec3<R>, v: Vec3<R>) -> Self {
         let s = (l + v) * l.z.lift(R::COSINE_SCALE);
         let length2 = s.length_squared().off_zero();
         // Of opposite directions the root may be NaN, which this order drops: they are not above the horizon.
@@ -132,8 +154,27 @@ impl<R: Real> Facet<R> {
 
     /// `h`, of unit length.
     #[inline(always)]
-    pub(crate) fn normal(&self) -> Vec3<R> {
+    pub fn normal(&self) -> Vec3<R> {
         self.s * self.length2.rsqrt()
+    }
+
+    /// `l·h = v·h = |l + v|/2`, at most 1.
+    #[inline(always)]
+    pub fn cos(&self) -> R {
+        self.cos
+    }
+
+    /// `D`, `weight · G/(4 (n·l)(n·v))` and the angle of incidence on the facet; numbers of no meaning below the horizon.
+    #[inline(always)]
+    pub fn terms<D, G>(&self, distribution: &D, masking: &G, weight: R) -> FacetTerms<R>
+    where
+        D: Distribution<R>,
+        G: Masking<R, D>,
+    {
+        let Self { l, v, s, length2, cos } = *self;
+        let visibility = masking.quotient(distribution, l, v, self.normal(), cos, weight);
+        let (incidence, visibility) = Incidence::halfway_and(l, v, cos, visibility);
+        FacetTerms { d: distribution.d_along(s, length2), visibility, incidence }
     }
 
     /// `weight · D G/(4 (n·l)(n·v))`, and the angle of incidence on the facet.
@@ -143,9 +184,7 @@ impl<R: Real> Facet<R> {
         D: Distribution<R>,
         G: Masking<R, D>,
     {
-        let Self { l, v, s, length2, cos } = *self;
-        let visibility = masking.quotient(distribution, l, v, self.normal(), cos, weight);
-        let (incidence, visibility) = Incidence::halfway_and(l, v, cos, visibility);
-        (distribution.d_along(s, length2) * visibility, incidence)
+        let FacetTerms { d, visibility, incidence } = self.terms(distribution, masking, weight);
+        (d * visibility, incidence)
     }
 }

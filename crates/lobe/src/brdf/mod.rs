@@ -66,7 +66,7 @@ pub use he::HeTorrance;
 pub use lafortune::Lafortune;
 pub use lambert::Lambert;
 pub use low::{LowMicrofacet, LowSmooth};
-pub use microfacet::{AshikhminPremozeShirley, Microfacet, TorranceSparrow};
+pub use microfacet::{AshikhminPremozeShirley, Facet, FacetTerms, Microfacet, TorranceSparrow};
 pub use minnaert::Minnaert;
 pub use mirror::{Delta, Mirror};
 pub use oren_nayar::{OrenNayar, OrenNayarQualitative};

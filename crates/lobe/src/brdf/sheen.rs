@@ -46,6 +46,31 @@ impl<B, R: Real> SheenLayer<B, R> {
         Self { base, sheen: Charlie::new(color, alpha), albedo }
     }
 
+    /// The lobe under the sheen.
+    #[inline(always)]
+    pub fn base(&self) -> &B {
+        &self.base
+    }
+
+    /// The sheen.
+    #[inline(always)]
+    pub fn sheen(&self) -> &Charlie<R> {
+        &self.sheen
+    }
+
+    /// The colour of the sheen.
+    #[inline(always)]
+    pub fn sheen_color(&self) -> Rgb<R> {
+        self.sheen.color
+    }
+
+    /// What the sheen leaves of the base: `min(1 − m E(n·v), 1 − m E(n·l))`, 0 below the horizon.
+    #[inline(always)]
+    pub fn transmitted(&self, l: Vec3<R>, v: Vec3<R>) -> R {
+        // Selected: below the horizon the root is not a number, and the base is 0.
+        above_horizon(l, v, self.scale(l.z).min(self.scale(v.z)))
+    }
+
     /// `1 − m E(cos θ)`, not below 0.
     #[inline(always)]
     fn scale(&self, cos: R) -> R {
@@ -59,8 +84,7 @@ impl<B, R: Real> SheenLayer<B, R> {
 
     #[inline(always)]
     fn layered(&self, sheen: Rgb<R>, base: Rgb<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        // Selected: below the horizon the root is not a number, and the base is 0.
-        sheen + base * above_horizon(l, v, self.scale(l.z).min(self.scale(v.z)))
+        sheen + base * self.transmitted(l, v)
     }
 }
 

@@ -56,6 +56,12 @@ impl<R: Real> Gaussian<R> {
         (self.widths.x, self.widths.y)
     }
 
+    /// `k`, the value at the normal.
+    #[inline(always)]
+    pub fn peak(&self) -> R {
+        self.peak
+    }
+
     /// The same distribution in another number type, its factor computed anew there.
     #[inline]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> Gaussian<S> {

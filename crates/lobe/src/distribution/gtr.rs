@@ -63,6 +63,12 @@ impl<R: Real> Gtr<R> {
         self.gamma
     }
 
+    /// `k`, the value at the normal.
+    #[inline(always)]
+    pub fn peak(&self) -> R {
+        self.peak
+    }
+
     /// The same distribution in another number type, its factor computed anew there.
     #[inline]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> Gtr<S> {
