@@ -29,8 +29,13 @@
 #![cfg_attr(not(test), deny(clippy::std_instead_of_core, clippy::alloc_instead_of_core))]
 
 mod diffuse;
+mod draw;
+mod empirical;
+mod gaussian;
 pub mod map;
 pub mod mis;
+mod power;
 mod sample;
+mod sheen;
 
 pub use sample::{Outcome, Sample, Sampled};
