@@ -14,6 +14,8 @@ struct Profile<R> {
     /// `1 − C`.
     rise: R,
     end: R,
+    /// `ln(1 + B x)/B` at the end.
+    log: R,
     /// The integral up to the end.
     whole: R,
 }
@@ -22,16 +24,18 @@ impl<R: Real> Profile<R> {
     #[inline(always)]
     fn new(b: R, c: R, end: R) -> Self {
         let rise = c.lift(1.0) - c;
-        // ln(1 + B x)/B.
         let log = end * ln_1p_by(b * end);
-        Self { b, rise, end, whole: log * exp_m1_by(rise * (b * log)) }
+        Self { b, rise, end, log, whole: log * exp_m1_by(rise * (b * log)) }
     }
 
     /// `x` with the part `u` of the integral below it.
     #[inline(always)]
     fn at(&self, u: R) -> R {
         let below = u * self.whole;
-        let log = below * ln_1p_by(self.rise * (self.b * below));
+        // Of a profile that has fallen to less than a rounding this is 1 for the last u, and the logarithm infinite, or that
+        // of a negative number (test `the_ends_of_u_and_v_are_finite`).
+        let rise = (self.rise * (self.b * below)).max(u.lift(-1.0));
+        let log = (below * ln_1p_by(rise)).min(self.log);
         // Rounded, it may be beyond the end, where a half vector would be below the horizon and its sine NaN.
         (log * exp_m1_by(self.b * log)).min(self.end)
     }
@@ -143,7 +147,9 @@ impl<R: Real> Facets<R> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, x: R, y: R) -> Vec3<R> {
         let alpha = self.0.alpha().0;
-        let w = Vec3::new(v.x * alpha, v.y * alpha, v.z).normalize();
+        // Of a viewer below the horizon, whose sample is rejected, the one above: straight from below no facet is seen, and
+        // its normal would be 0/0.
+        let w = Vec3::new(v.x * alpha, v.y * alpha, v.z.abs()).normalize();
         let (sin_phi, cos_phi) = y.times(TAU).sin_cos();
         // z = (1 − x)(1 + w.z) − w.z, and z + w.z, 1 − z and 1 + z without the difference.
         let cap = w.z.plus(1.0);

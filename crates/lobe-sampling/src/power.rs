@@ -1,9 +1,8 @@
 //! Power lobes: around the mirror direction, around an axis of their own, and of half vectors.
 //!
-//! With `1 − cos θ = −expm1(ln(1 − u)/(q + 1))` the angle of a lobe of any exponent has all its digits: the cosine itself, near 1,
-//! would have lost them at `q = 10⁶`. The density is computed from the direction that was rounded, as the value is. Between
-//! directions, one unit in the last place moves it by `√q u` of itself and more down the lobe: that is between two neighbouring
-//! directions, and not in the weights, from which the lobe has cancelled.
+//! With `1 − cos θ = −expm1(ln(1 − u)/(q + 1))` the angle of a lobe of any exponent has all its digits; the cosine itself, near 1,
+//! has lost them at `q = 10⁶`. The density is that of the direction as it was rounded: a unit in the last place of the direction
+//! moves it by `√q u` and more down the lobe, but the weight, from which the lobe has cancelled, by `u`.
 
 use crate::draw::{
     Draw, by_facet, exp_m1_by, ln_complement, mirrored, sample_by_drawing, scaled_sum, tilted, times_pi,

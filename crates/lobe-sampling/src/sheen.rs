@@ -22,7 +22,7 @@ impl<R: Real> Draw<R> for Charlie<R> {
     fn weight(&self, l: Vec3<R>, v: Vec3<R>, _: R) -> Rgb<R> {
         self.eval_cos(l, v) * l.z.lift(TAU)
     }
-    /// Within 0.15 of the albedo for `α ≥ 0.06`.
+    /// Within 0.25 of the albedo for `α ≥ 0.06` and `n·v ≥ 0.01` (test `the_guess_for_sheen_is_near`).
     #[inline(always)]
     fn guess(&self, v: Vec3<R>) -> R {
         let root = v.z.sqrt();
