@@ -84,7 +84,8 @@ impl<R: Real> Clipped<R> {
             / (m * m.squared()).plus(-1.43545);
         let c = r * (m * m.times(0.261777).plus(-0.506373)).plus(0.20013);
         let d = r * (m * m.times(0.475392).plus(-1.01625)).plus(0.540852) / (m * m.plus(0.0725628)).plus(-1.0743);
-        // The fit is 0.0035 r at the normal, where the other side of the disc would have to be cut.
+        // The fit is 0.0035 r at the normal, where the other side of the disc would have to be cut (test
+        // `eon_cuts_its_disc_on_the_right_side`).
         let d = d.min(zero);
         let left = d.squared().plus(1.0).rsqrt().plus(1.0).times(0.5);
         let even = r.pow(one.times(0.1)) * (m * (m * m.times(-0.290822).plus(0.538233)).plus(-0.372058)).plus(0.162925);

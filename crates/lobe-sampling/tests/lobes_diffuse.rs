@@ -63,6 +63,13 @@ fn eon_has_light_where_its_lobe_has_none() {
     }
 }
 
+/// At the normal the fit would cut the disc on the other side: a sample of the first would be below the horizon.
+#[test]
+fn eon_cuts_its_disc_on_the_right_side() {
+    let sample = Eon::new(Rgb::splat(1.0), 1.0).sample(checks::view(1.0), [0.9, 1.0 - 1e-7, 0.0]);
+    assert!(!sample.rejected, "{sample:?}");
+}
+
 /// What the transformed lobe is for: less variance than the cosine has.
 #[test]
 fn eon_varies_less_than_by_the_cosine() {

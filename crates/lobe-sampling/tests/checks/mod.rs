@@ -82,7 +82,8 @@ impl Mean {
         self.0 += x;
         self.1 += x * x;
     }
-    /// The mean, and its standard error if the samples were independent, of which these are better.
+    /// The mean, and the standard error that as many independent samples would have. Halton's are spread more evenly: within
+    /// one, a test tells more faults than within four.
     fn of(&self, n: f64) -> (f64, f64) {
         let mean = self.0 / n;
         (mean, ((self.1 / n - mean * mean).max(0.0) / n).sqrt())
@@ -139,12 +140,12 @@ pub(crate) fn agrees_with_quadrature(case: &Case, views: &[f64]) {
         });
         for (mean, exact) in means.iter().zip([shapes.g, shapes.b, values.g]) {
             let (mean, error) = mean.of(n);
-            assert!((mean - exact).abs() < 4.0 * error + 2e-5, "{name} {v:?}: {mean} ± {error}, {exact}");
+            assert!((mean - exact).abs() < error + 2e-5, "{name} {v:?}: {mean} ± {error}, {exact}");
         }
         let exact = values.r;
         let (mean, error) = albedo.of(n);
         assert!(
-            (mean - exact).abs() < 4.0 * error + 2e-5 * exact.max(1.0),
+            (mean - exact).abs() < error + 2e-5 * exact.max(1.0),
             "{name} {v:?}: weights of {mean} ± {error}, albedo {exact}"
         );
         let guess = lobe.albedo_guess(v);
