@@ -1,7 +1,6 @@
 //! Lobes that were fitted to measurements or derived from wave optics: two by their own profile, two by facets that cover them.
 
 use crate::draw::{Draw, by_facet, exp_m1_by, ln_1p_by, sample_by_drawing, scaled_sum, tilted};
-use crate::map::cosine_hemisphere;
 use core::f64::consts::{FRAC_1_PI, LOG2_E, PI, TAU};
 use lobe::distribution::{Distribution, Ggx, SmithLambda};
 use lobe::fresnel::{Dielectric, Fresnel, Incidence};
@@ -13,7 +12,6 @@ struct Profile<R> {
     b: R,
     /// `1 − C`.
     rise: R,
-    end: R,
     /// `ln(1 + B x)/B` at the end.
     log: R,
     /// The integral up to the end.
@@ -25,19 +23,18 @@ impl<R: Real> Profile<R> {
     fn new(b: R, c: R, end: R) -> Self {
         let rise = c.lift(1.0) - c;
         let log = end * ln_1p_by(b * end);
-        Self { b, rise, end, log, whole: log * exp_m1_by(rise * (b * log)) }
+        Self { b, rise, log, whole: log * exp_m1_by(rise * (b * log)) }
     }
 
     /// `x` with the part `u` of the integral below it.
     #[inline(always)]
     fn at(&self, u: R) -> R {
         let below = u * self.whole;
-        // Of a profile that has fallen to less than a rounding this is 1 for the last u, and the logarithm infinite, or that
-        // of a negative number (test `the_ends_of_u_and_v_are_finite`).
+        // Of a profile that has fallen to less than a rounding this is −1 for the last u, and the logarithm infinite, or below
+        // and NaN (test `the_last_number_is_at_the_end`).
         let rise = (self.rise * (self.b * below)).max(u.lift(-1.0));
         let log = (below * ln_1p_by(rise)).min(self.log);
-        // Rounded, it may be beyond the end, where a half vector would be below the horizon and its sine NaN.
-        (log * exp_m1_by(self.b * log)).min(self.end)
+        log * exp_m1_by(self.b * log)
     }
 
     /// The density of `x`.
@@ -129,9 +126,6 @@ impl<R: Real> Draw<R> for LowMicrofacet<R> {
     }
 }
 
-/// The part of the samples that goes by the cosine where facets only cover a lobe.
-const BY_COSINE: f64 = 0.125;
-
 /// The light by the facets of GGX that a viewer sees: a density that covers a lobe of about this width, and has a tail beyond it.
 struct Facets<R>(Ggx<R>);
 
@@ -177,20 +171,20 @@ fn he<R: Real>(lobe: &HeTorrance<R>, v: Vec3<R>) -> Facets<R> {
     Facets::new((smooth.squared() + rough.squared()).sqrt())
 }
 
-/// By the visible facets of a GGX as wide as the lobe, one sample in eight by the cosine. The weight is `f_r (n·l)/pdf`.
+/// By the visible facets of a GGX as wide as the lobe. The weight is `f_r (n·l)/pdf`.
 ///
 /// The lobe is a series of Gaussians of which each counts with a weight of its own: none can be drawn in closed form, but
-/// all fall faster than GGX. The cosine is for what GGX, which knows the view's width only, does not foresee (test
-/// `covered_lobes_have_bounded_weights`).
+/// all fall faster than GGX, whose density vanishes nowhere above the horizon. A part by the cosine would lower no weight, and add to the
+/// variance (test `covered_lobes_have_bounded_weights`).
 impl<R: Real> Draw<R> for HeTorrance<R> {
     #[inline(always)]
-    fn direction(&self, v: Vec3<R>, [choice, x, y]: [R; 3]) -> Vec3<R> {
-        Vec3::select(choice.lt(choice.lift(BY_COSINE)), cosine_hemisphere([x, y]), he(self, v).direction(v, x, y))
+    fn direction(&self, v: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
+        he(self, v).direction(v, x, y)
     }
     #[inline(always)]
     fn density(&self, l: Vec3<R>, v: Vec3<R>) -> R {
         let (s, length) = scaled_sum(l, v);
-        he(self, v).density(s, length.squared(), v).times(1.0 - BY_COSINE) + l.z.times(BY_COSINE * FRAC_1_PI)
+        he(self, v).density(s, length.squared(), v)
     }
     #[inline(always)]
     fn weight(&self, l: Vec3<R>, v: Vec3<R>, pdf: R) -> Rgb<R> {
@@ -205,7 +199,7 @@ impl<R: Real> Draw<R> for HeTorrance<R> {
     }
 }
 
-/// The widths that cover the three channels, each with its part of the samples that do not go by the cosine. The end `exp(−tan²/α)` of
+/// The widths that cover the three channels, each with its part of the samples. The end `exp(−tan²/α)` of
 /// a channel has slopes of `√α`, its peak, where `t^(−p)` begins to fall, those of `α`: for the exponents of published fits, below
 /// 1/2, most of the light is in the former.
 #[inline(always)]
@@ -222,8 +216,7 @@ fn gamma<R: Real>(lobe: &ShiftedGamma<R>) -> [(R, f64); 6] {
     ]
 }
 
-/// By the visible facets of a GGX of the width `√α` or `α` of one of the channels, one sample in eight by the cosine. The weight is
-/// `f_r (n·l)/pdf`.
+/// By the visible facets of a GGX of the width `√α` or `α` of one of the channels. The weight is `f_r (n·l)/pdf`.
 ///
 /// The three channels are lobes of their own, of which the widest may be a hundred times as wide as the narrowest: the
 /// density of one alone would all but vanish where another has a value (test `covered_lobes_have_bounded_weights`).
@@ -231,21 +224,20 @@ impl<R: Real> Draw<R> for ShiftedGamma<R> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, [choice, x, y]: [R; 3]) -> Vec3<R> {
         // The last width whose samples begin at or below `choice`.
-        let (mut alpha, mut from) = (choice, BY_COSINE);
+        let (mut alpha, mut from) = (choice, 0.0);
         for (width, part) in gamma(self) {
             alpha = R::select(choice.lt(choice.lift(from)), alpha, width);
-            from += (1.0 - BY_COSINE) * part;
+            from += part;
         }
-        let facets = Facets::new(alpha).direction(v, x, y);
-        Vec3::select(choice.lt(choice.lift(BY_COSINE)), cosine_hemisphere([x, y]), facets)
+        Facets::new(alpha).direction(v, x, y)
     }
     #[inline(always)]
     fn density(&self, l: Vec3<R>, v: Vec3<R>) -> R {
         let (s, length) = scaled_sum(l, v);
         let length2 = length.squared();
-        let mut sum = l.z.times(BY_COSINE * FRAC_1_PI);
+        let mut sum = l.z.lift(0.0);
         for (width, part) in gamma(self) {
-            sum = sum + Facets::new(width).density(s, length2, v).times((1.0 - BY_COSINE) * part);
+            sum = sum + Facets::new(width).density(s, length2, v).times(part);
         }
         sum
     }
@@ -271,4 +263,31 @@ sample_by_drawing! {
     [] LowMicrofacet<R>;
     [] HeTorrance<R>;
     [] ShiftedGamma<R>;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_number_is_at_the_end() {
+        for c in (0..300).map(|i| i as f32 / 100.0) {
+            for i in 0..500 {
+                let b = 10_f32.powf(i as f32 * 0.03 - 8.0);
+                let x = Profile::new(b, c, 1.0).at(1.0 - f32::EPSILON / 2.0);
+                assert!((0.0..=1.000_005).contains(&x), "{b} {c}: {x}");
+            }
+        }
+    }
+
+    /// Half of the integral is below what is drawn for 1/2, for the limits of the profile too.
+    #[test]
+    fn a_profile_is_drawn_back() {
+        for (b, c) in [(0.0, 2.0), (1e-12, 1.0), (3.0, 0.0), (1e3, 1.0), (1e3, 1.0 + 1e-12), (1e7, 3.0)] {
+            let profile = Profile::new(b, c, 4.0);
+            let x: f64 = profile.at(0.5);
+            let share = Profile::new(b, c, x).whole / profile.whole;
+            assert!((share - 0.5).abs() < 1e-12, "{b} {c}: {x}, {share}");
+        }
+    }
 }
