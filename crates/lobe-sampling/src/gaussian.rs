@@ -1,6 +1,6 @@
 //! Ward's lobes, by half vectors with slopes that are normally distributed.
 //!
-//! Ward, "Measuring and Modeling Anisotropic Reflection", SIGGRAPH 1992, section 5; Walter, "Notes on the Ward BRDF", 2005. There
+//! Ward, "Measuring and Modeling Anisotropic Reflection", SIGGRAPH 1992; Walter, "Notes on the Ward BRDF", 2005. There
 //! `tan²θ = −ln u/(cos²φ/αx² + sin²φ/αy²)` and `φ = atan(αy/αx tan 2πu)`, in the quadrant of `2πu`. Here the slopes
 //! themselves, `(αx r cos 2πu, αy r sin 2πu)` with `r² = −ln(1 − u)`: the same in every quadrant.
 

@@ -156,7 +156,7 @@ impl<R: Real> Draw<R> for BlinnTorranceHighlight<R> {
 
 /// By `h` with the density `√((nu+1)(nv+1))/2π (n·h)^e`, `e = nu cos²φ + nv sin²φ`: the weight is `F (n·l)/max(n·l, n·v)`, at most 1.
 ///
-/// Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", JGT 5(2), 2000, section 3. The azimuth, there
+/// Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", JGT 5(2), 2000. The azimuth, there
 /// `tan φ = √((nu+1)/(nv+1)) tan(πu/2)` in the first quadrant and turned into the others, is here that of
 /// `(cos ψ/√(nu+1), sin ψ/√(nv+1))` with `ψ = 2πu`: the same in all four, and without a tangent that is infinite. The square
 /// of that vector is `1/(e + 1)`.
@@ -274,7 +274,7 @@ fn lafortune<R: Real>(lobe: &Lafortune<R>, v: Vec3<R>) -> Lobe<R> {
 /// By its own power around the axis `(Cx v.x, Cy v.y, Cz v.z)`, on which every value depends as `(a·l)^q`: the weight is
 /// `2π/(q + 1) ks N |C v|^q (n·l)`.
 ///
-/// Lafortune, Foo, Torrance and Greenberg, "Non-Linear Approximation of Reflectance Functions", SIGGRAPH 1997, section 5.
+/// Lafortune, Foo, Torrance and Greenberg, "Non-Linear Approximation of Reflectance Functions", SIGGRAPH 1997.
 /// Where the axis is not above the horizon, every second sample is by the cosine: without, most samples would be
 /// rejected, all of a sharp lobe, while what is above the horizon has a value (test `an_axis_below_the_horizon`). Where the
 /// axis vanishes, the lobe is sampled around the normal, and the value is 0.
