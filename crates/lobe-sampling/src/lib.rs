@@ -27,6 +27,12 @@
 //! | [`Sum`](lobe::Sum), [`Coat`](lobe::Coat), [`Clearcoat`](lobe::Clearcoat) | one of their parts, with the density of the whole |
 //! | [`SheenLayer`](lobe::SheenLayer), [`KullaConty`](lobe_energy::KullaConty), [`FdezAguera`](lobe_energy::FdezAguera), [`CoupledDiffuse`](lobe_energy::CoupledDiffuse) | a part, or the cosine |
 //! | [`Turquin`](lobe_energy::Turquin) | facets |
+//! | [`Phong`](lobe::Phong), [`BlinnPhong`](lobe::BlinnPhong), [`AshikhminShirley`](lobe::AshikhminShirley), the lecture's highlights | their power of a cosine, around the mirror direction or the normal of the facet |
+//! | [`Lafortune`](lobe::Lafortune) | its cosine lobe, or the cosine |
+//! | [`Ward`](lobe::Ward) and its successors | their Gaussian of slopes |
+//! | [`LowSmooth`](lobe::LowSmooth), [`LowMicrofacet`](lobe::LowMicrofacet), [`HeTorrance`](lobe::HeTorrance), [`ShiftedGamma`](lobe::ShiftedGamma) | their profile or facets as wide, or the cosine |
+//! | [`Eon`](lobe::Eon) | its clipped cosines, or evenly; other diffuse lobes by the cosine |
+//! | [`Charlie`](lobe::Charlie) | evenly |
 //! | [`Mirror`](lobe::Mirror), [`Black`](lobe::Black) | a delta; nothing |
 //! | any other [`Brdf`](lobe::Brdf) | [`ByCosine`] |
 //!
@@ -46,14 +52,19 @@ pub mod batch;
 mod cosine;
 mod delta;
 mod diffuse;
+mod draw;
+mod empirical;
 pub mod facets;
+mod gaussian;
 mod layered;
 pub mod map;
 mod microfacet;
 pub mod mis;
 mod mixture;
+mod power;
 mod rules;
 mod sample;
+mod sheen;
 mod special;
 
 pub use cosine::ByCosine;

@@ -30,6 +30,18 @@ impl<R: Real> BurleyDiffuse<R> {
         Self { albedo, roughness }
     }
 
+    /// The base colour `ρ`.
+    #[inline(always)]
+    pub fn albedo(&self) -> Rgb<R> {
+        self.albedo
+    }
+
+    /// The roughness `r`.
+    #[inline(always)]
+    pub fn roughness(&self) -> PerceptualRoughness<R> {
+        self.roughness
+    }
+
     /// The same lobe in another number type.
     #[inline(always)]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> BurleyDiffuse<S> {

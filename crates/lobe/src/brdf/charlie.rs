@@ -86,6 +86,18 @@ impl<R: Real> Charlie<R> {
         Self { color, alpha, exponent, peak: exponent.plus(2.0).times(0.25 / TAU), fit: Fit::new(alpha.0) }
     }
 
+    /// The colour `c`.
+    #[inline(always)]
+    pub fn color(&self) -> Rgb<R> {
+        self.color
+    }
+
+    /// The width `α`.
+    #[inline(always)]
+    pub fn alpha(&self) -> Alpha<R> {
+        self.alpha
+    }
+
     /// The same sheen in another number type.
     #[inline(always)]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> Charlie<S> {

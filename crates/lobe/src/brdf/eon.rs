@@ -65,6 +65,18 @@ impl<R: Real> Eon<R> {
         }
     }
 
+    /// The single-scattering albedo `ρ`.
+    #[inline(always)]
+    pub fn albedo(&self) -> Rgb<R> {
+        self.albedo
+    }
+
+    /// The roughness `r`.
+    #[inline(always)]
+    pub fn roughness(&self) -> R {
+        self.roughness
+    }
+
     /// The same lobe in another number type.
     #[inline(always)]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> Eon<S> {

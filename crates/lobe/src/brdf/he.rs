@@ -82,6 +82,30 @@ impl<R: Real> HeTorrance<R> {
         Self { ks, fresnel: Dielectric::new(eta), sigma, tau }
     }
 
+    /// The factor `ks`.
+    #[inline(always)]
+    pub fn ks(&self) -> Rgb<R> {
+        self.ks
+    }
+
+    /// The index `η`.
+    #[inline(always)]
+    pub fn ior(&self) -> Ior<R> {
+        self.fresnel.ior()
+    }
+
+    /// The root mean square height `σ₀`, in wavelengths.
+    #[inline(always)]
+    pub fn sigma(&self) -> R {
+        self.sigma
+    }
+
+    /// The correlation length `τ`, in wavelengths.
+    #[inline(always)]
+    pub fn tau(&self) -> R {
+        self.tau
+    }
+
     /// The same lobe in another number type.
     #[inline(always)]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> HeTorrance<S> {

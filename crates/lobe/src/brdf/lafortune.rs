@@ -106,6 +106,12 @@ impl<R: Real> Lafortune<R> {
         self.q
     }
 
+    /// `ks N m^q`, `m = max |C|`: the largest value that the lobe can have.
+    #[inline(always)]
+    pub fn peak(&self) -> Rgb<R> {
+        self.peak
+    }
+
     /// The same lobe in another number type, its factors computed anew there.
     #[inline(always)]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> Lafortune<S> {

@@ -77,6 +77,30 @@ macro_rules! parameters {
                 Self { a, b, c, fresnel: Dielectric::new(eta) }
             }
 
+            /// The height `A`.
+            #[inline(always)]
+            pub fn a(&self) -> Rgb<R> {
+                self.a
+            }
+
+            /// `B`: the width is `1/√B`.
+            #[inline(always)]
+            pub fn b(&self) -> R {
+                self.b
+            }
+
+            /// The fall `C`.
+            #[inline(always)]
+            pub fn c(&self) -> R {
+                self.c
+            }
+
+            /// The index `η`.
+            #[inline(always)]
+            pub fn ior(&self) -> Ior<R> {
+                self.fresnel.ior()
+            }
+
             /// The same lobe in another number type.
             #[inline(always)]
             pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> $name<S> {

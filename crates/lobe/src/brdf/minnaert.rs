@@ -31,6 +31,18 @@ impl<R: Real> Minnaert<R> {
         Self { albedo, k, scale: albedo * k.plus(1.0).times(0.5 * R::ROOT_SCALE * core::f64::consts::FRAC_1_PI) }
     }
 
+    /// The albedo `ρ` at normal incidence.
+    #[inline(always)]
+    pub fn albedo(&self) -> Rgb<R> {
+        self.albedo
+    }
+
+    /// The exponent `k`.
+    #[inline(always)]
+    pub fn k(&self) -> R {
+        self.k
+    }
+
     /// The same law in another number type.
     #[inline(always)]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> Minnaert<S> {

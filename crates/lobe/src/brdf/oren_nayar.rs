@@ -36,6 +36,18 @@ impl<R: Real> OrenNayarQualitative<R> {
         Self { albedo, sigma, a, b: (s2 / s2.plus(0.09)).times(0.45) }
     }
 
+    /// The albedo `ρ` of the facets.
+    #[inline(always)]
+    pub fn albedo(&self) -> Rgb<R> {
+        self.albedo
+    }
+
+    /// The roughness `σ` in radians.
+    #[inline(always)]
+    pub fn sigma(&self) -> R {
+        self.sigma
+    }
+
     /// The same surface in another number type.
     #[inline(always)]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> OrenNayarQualitative<S> {
@@ -93,6 +105,18 @@ impl<R: Real> OrenNayar<R> {
         let c1 = sigma.lift(1.0) - (s2 / s2.plus(0.33)).times(0.5);
         let again = albedo * albedo * (s2 / s2.plus(0.13)).times(0.17);
         Self { albedo, sigma, c1, rough: s2 / s2.plus(0.09), again }
+    }
+
+    /// The albedo `ρ` of the facets.
+    #[inline(always)]
+    pub fn albedo(&self) -> Rgb<R> {
+        self.albedo
+    }
+
+    /// The roughness `σ` in radians.
+    #[inline(always)]
+    pub fn sigma(&self) -> R {
+        self.sigma
     }
 
     /// The same surface in another number type.

@@ -86,6 +86,12 @@ impl<R: Real> ShiftedGamma<R> {
         Self { channels }
     }
 
+    /// The parameters of the three channels.
+    #[inline(always)]
+    pub fn channels(&self) -> Rgb<ShiftedGammaChannel<R>> {
+        self.channels
+    }
+
     /// The same lobe in another number type.
     #[inline(always)]
     pub fn map<S: Real>(self, f: impl Fn(R) -> S) -> ShiftedGamma<S> {
