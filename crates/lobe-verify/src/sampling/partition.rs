@@ -6,6 +6,7 @@
 //! lobe of width 1e-4 is found by some twenty halvings, wherever it is.
 
 use super::sampler::Sampler;
+use crate::subject::Precision;
 use std::collections::BinaryHeap;
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
@@ -140,8 +141,35 @@ struct Cell {
     low: [f64; 2],
     high: [f64; 2],
     depth: usize,
+    /// How many halvings before this one did not make the error smaller.
+    stubborn: usize,
     split: Option<Split>,
     rule: Option<Rule>,
+}
+
+impl Cell {
+    /// Whether its error is noise: no smaller after three halvings.
+    fn noisy(&self) -> bool {
+        self.stubborn >= 3
+    }
+}
+
+/// Errors of cells, added: those of a smooth function as they are, noise as what is independent, twice its standard deviation.
+#[derive(Clone, Copy, Debug, Default)]
+struct Errors {
+    smooth: f64,
+    squares: f64,
+}
+
+impl Errors {
+    fn add(&mut self, errors: [f64; 2], cell: &Cell) {
+        let error: f64 = errors.iter().sum();
+        if cell.noisy() { self.squares += error * error } else { self.smooth += error }
+    }
+
+    fn sum(self) -> f64 {
+        self.smooth + 2.0 * self.squares.sqrt()
+    }
 }
 
 /// The two halves stand one after the other.
@@ -175,7 +203,7 @@ pub(crate) struct Density<'a> {
 impl Partition {
     /// Halves cells until the errors of all sum up to `tolerance`, or there are `most` cells. `pilot` are places of samples.
     pub(crate) fn new(density: &Density<'_>, pilot: &mut [[f64; 2]], tolerance: f64, most: usize) -> Self {
-        let root = Cell { low: [0.0; 2], high: [1.0; 2], depth: 0, split: None, rule: None };
+        let root = Cell { low: [0.0; 2], high: [1.0; 2], depth: 0, stubborn: 0, split: None, rule: None };
         let mut this = Self { chart: Chart::new(density.v), cells: vec![root], bad: None };
         this.follow(0, pilot);
         for index in 0..this.cells.len() {
@@ -240,6 +268,8 @@ impl Partition {
     }
 
     fn refine(&mut self, density: &Density<'_>, tolerance: f64, most: usize) {
+        // The directions of `f32` are so coarse that a sharp lobe is rough from one to the next, and finer cells are no smoother.
+        let rounded = density.sampler.precision() == Precision::Single;
         // Errors are not negative, so that their bits have their order.
         let mut queue: BinaryHeap<(u64, usize)> = BinaryHeap::new();
         let mut total = 0.0;
@@ -252,10 +282,19 @@ impl Partition {
             total -= f64::from_bits(error);
             let Some((rule, depth)) = self.rule(index).filter(|(_, depth)| *depth < DEEPEST) else { continue };
             let split = self.halve(index, rule.axis(depth));
-            for half in [split.first, split.first + 1] {
-                let error = self.measure(density, half);
-                total += error;
-                queue.push((error.to_bits(), half));
+            let halves = [split.first, split.first + 1];
+            let errors = halves.map(|half| self.measure(density, half));
+            let stubborn = rounded && errors.iter().sum::<f64>() > 0.7 * f64::from_bits(error);
+            for (half, error) in halves.into_iter().zip(errors) {
+                let cell = self.cells.get_mut(half);
+                let noisy = cell.is_some_and(|cell| {
+                    cell.stubborn = if stubborn { cell.stubborn + 1 } else { 0 };
+                    cell.noisy()
+                });
+                if !noisy {
+                    total += error;
+                    queue.push((error.to_bits(), half));
+                }
             }
         }
     }
@@ -298,13 +337,13 @@ impl Partition {
 
     /// The integrals over the hemisphere, and the estimated error of the density and of the mean value.
     pub(crate) fn total(&self) -> (Sums, f64, f64) {
-        let (mut sums, mut pdf_error, mut value_error) = (Sums::default(), 0.0, 0.0);
-        for (_, rule, _) in self.leaves() {
+        let (mut sums, mut of_pdf, mut of_value) = (Sums::default(), Errors::default(), Errors::default());
+        for (_, rule, cell) in self.leaves() {
             sums.add(&rule.sums, 1.0);
-            pdf_error += rule.pdf_error.iter().sum::<f64>();
-            value_error += rule.value_error.iter().sum::<f64>();
+            of_pdf.add(rule.pdf_error, &cell);
+            of_value.add(rule.value_error, &cell);
         }
-        (sums, pdf_error, value_error)
+        (sums, of_pdf.sum(), of_value.sum())
     }
 
     /// About `count` bins of equal mass: runs of small leaves.
@@ -315,11 +354,12 @@ impl Partition {
             self.thin(density, 0.25 * target);
         }
         let mut bins = Bins { of_cell: vec![0; self.cells.len()], bins: Vec::new() };
-        let mut open: Option<Bin> = None;
+        let (mut open, mut errors): (Option<Bin>, _) = (None, Errors::default());
         for (index, rule, cell) in self.leaves() {
             let bin = open.get_or_insert(Bin { mass: 0.0, error: 0.0, low: [1.0; 2], high: [0.0; 2] });
             bin.mass += rule.sums.pdf;
-            bin.error += rule.pdf_error.iter().sum::<f64>();
+            errors.add(rule.pdf_error, &cell);
+            bin.error = errors.sum();
             for (side, x) in bin.low.iter_mut().zip(cell.low) {
                 *side = side.min(x);
             }
@@ -332,6 +372,7 @@ impl Partition {
             // The last leaves go with the bin before them if they are few.
             if bin.mass >= target {
                 bins.bins.extend(open.take());
+                errors = Errors::default();
             }
         }
         bins.bins.extend(open);
@@ -456,11 +497,16 @@ fn integrate(
         }
     }
     let fine = [sums.pdf, sums.mean_value()];
+    // Of roughness the difference is the size, and how much the function varies has nothing to do with it.
+    let rounded = density.sampler.precision() == Precision::Single;
     let mut errors = [[0.0; 2]; 2];
     for (((error, coarse), values), fine) in errors.iter_mut().zip(coarse).zip(&values).zip(fine) {
         let weights = RULE.iter().flat_map(|(_, wx, _)| RULE.iter().map(move |(_, wy, _)| wx * wy));
         let variation: f64 = weights.zip(values).map(|(w, value)| w * (value - 0.25 * fine).abs()).sum();
-        *error = coarse.map(|coarse| estimate((coarse - fine).abs(), variation));
+        *error = coarse.map(|coarse| {
+            let difference = (coarse - fine).abs();
+            if rounded { difference } else { estimate(difference, variation) }
+        });
     }
     let [pdf_error, value_error] = errors;
     Rule { sums, pdf_error, value_error, along }

@@ -88,6 +88,16 @@ fn one_percent_of_a_fault_is_caught_at_the_full_count() {
     }
 }
 
+/// The table of the documentation: `cargo test -p lobe-verify --lib full_count -- --ignored --nocapture`.
+#[test]
+#[ignore = "a minute"]
+fn the_table_of_faults_at_the_full_count() {
+    for row in survey(Effort::FULL) {
+        println!("{row}");
+        assert!(!row.caught_by.is_empty() && row.false_alarms.is_empty(), "{row}: {:?}", row.false_alarms);
+    }
+}
+
 /// What the table says of the least part is so: a little more of it is found, a third of it is not.
 #[test]
 fn the_least_part_of_the_table_is_where_detection_begins() {
@@ -115,30 +125,30 @@ fn the_least_part_of_the_table_is_where_detection_begins() {
 }
 
 /// Smaller than quick, to be repeated often.
-const SMALL: Effort =
-    Effort { samples: 1 << 13, bins: 32, single: 8, even: 16, tolerance: 1e-4, agreement: 1e-3, ..Effort::QUICK };
+const SMALL: Effort = Effort { samples: 1 << 13, bins: 32, single: 8, even: 16, tolerance: 1e-4, ..Effort::QUICK };
 
 /// Of the test of fit with a sharp lobe, and of both with one whose weights are not skewed: of skewed ones a bound is told, which is
 /// larger.
 #[test]
 fn p_values_of_a_true_sampler_are_even() {
     // An albedo so sure that its error takes nothing from the differences.
-    let effort = Effort { tolerance: 1e-6, agreement: 1e-7, ..SMALL };
+    let effort = Effort { tolerance: 1e-5, ..SMALL };
     let ggx = Port::sound(Model::VisibleNormals([0.4, 0.2]));
     let phong = Port::sound(Model::Phong(1.0));
-    for (port, property) in [(ggx, Property::Fit), (phong, Property::Fit), (phong, Property::MeanWeight)] {
-        let p = |run| {
-            let report = verify_with(&format!("even {run}"), &port, &port.claims(), &[view(0.5, 30.0)], effort);
-            report.verdicts(property).next().unwrap().p.unwrap()
-        };
-        let mut ps: Vec<f64> = (0..200).map(p).collect();
-        ps.sort_by(f64::total_cmp);
-        let n = ps.len() as f64;
-        let distance = ps.iter().enumerate().map(|(i, p)| (p - i as f64 / n).abs().max((i as f64 + 1.0) / n - p));
-        let distance = distance.fold(0.0, f64::max);
-        let p = kolmogorov_tail(n, distance);
-        println!("{property}: {distance} {p}");
-        assert!(p > 1e-3, "{property}: {distance}, p = {p}");
+    for (port, properties) in [(ggx, &[Property::Fit][..]), (phong, &[Property::Fit, Property::MeanWeight])] {
+        let runs: Vec<Report> = (0..200)
+            .map(|run| verify_with(&format!("even {run}"), &port, &port.claims(), &[view(0.5, 30.0)], effort))
+            .collect();
+        for property in properties {
+            let mut ps: Vec<f64> = runs.iter().filter_map(|run| run.verdicts(*property).next()?.p).collect();
+            ps.sort_by(f64::total_cmp);
+            let n = ps.len() as f64;
+            let distance = ps.iter().enumerate().map(|(i, p)| (p - i as f64 / n).abs().max((i as f64 + 1.0) / n - p));
+            let distance = distance.fold(0.0, f64::max);
+            let p = kolmogorov_tail(n, distance);
+            println!("{property}: {distance} {p}");
+            assert!(ps.len() == 200 && p > 1e-3, "{property}: {distance}, p = {p}");
+        }
     }
 }
 
@@ -239,6 +249,73 @@ fn the_table_of_variances_has_what_is_known() {
     // Of Phong with q = 1 at the normal it is 3/2 cos θ, with the density 2 cos θ of cos θ: 1 and 9/8 are its moments.
     assert!((rows[1].albedo - 1.0).abs() < 1e-6 && (rows[1].variance - 0.125).abs() < 1e-6);
     assert!((rows[1].samples - 1250.0).abs() < 0.1);
+}
+
+/// A sampler of which all that goes in and out is rounded to `f32`.
+struct Rounded(Port);
+
+impl Sampler for Rounded {
+    fn sample(&self, v: [f64; 3], u: [f64; 3]) -> Drawn<f64> {
+        let round = |x: f64| f64::from(x as f32);
+        match self.0.sample(v, u) {
+            Drawn::Scattered { l, weight, pdf } => Drawn::Scattered {
+                l: l.map(round),
+                weight: Rgb::new(round(weight.r), round(weight.g), round(weight.b)),
+                pdf: round(pdf),
+            },
+            other => other,
+        }
+    }
+    fn pdf(&self, l: [f64; 3], v: [f64; 3]) -> f64 {
+        f64::from(self.0.pdf(l.map(|x| f64::from(x as f32)), v) as f32)
+    }
+    fn eval_cos_pdf(&self, l: [f64; 3], v: [f64; 3]) -> Option<([f64; 3], f64)> {
+        let (value, pdf) = self.0.eval_cos_pdf(l.map(|x| f64::from(x as f32)), v)?;
+        Some((value.map(|x| f64::from(x as f32)), f64::from(pdf as f32)))
+    }
+    fn precision(&self) -> crate::subject::Precision {
+        crate::subject::Precision::Single
+    }
+    fn claims(&self) -> Claims {
+        Claims { grazing: 1e-4, ..self.0.claims() }
+    }
+}
+
+/// A sharp lobe, whose density a rounded direction changes: that is no fault. Twenty-four digits of `u` are enough.
+#[test]
+fn rounding_to_single_precision_is_no_fault() {
+    let ports = sound();
+    let rounded: Vec<_> = ports.iter().map(|(name, port)| (*name, Rounded(*port))).collect();
+    let samplers: Vec<_> = rounded.iter().map(|(name, rounded)| (*name, rounded as &dyn Sampler)).collect();
+    let suite = verify_all(&samplers, &views(), Effort::QUICK);
+    println!("{suite}");
+    assert!(suite.holds());
+    // The roughness of the densities is known as such, and leaves integrals that say something.
+    for view in suite.reports.iter().flat_map(|report| &report.views) {
+        assert!(view.integral_error < 1e-3, "{view}");
+    }
+}
+
+/// A peak of the lobe that the sampler meets once in a million samples is in the albedo all the same.
+#[test]
+fn a_peak_that_no_sample_meets_is_seen() {
+    let (cosine, peak) = (Port::sound(Model::Cosine), Port::sound(Model::VisibleNormals([1e-3; 2])));
+    let value = move |l, v| peak.eval_cos_pdf(l, v).unwrap().0;
+    let sample = move |v, u| match cosine.sample(v, u) {
+        Drawn::Scattered { l, pdf, .. } => {
+            Drawn::Scattered { l, weight: Rgb::from(value(l.into(), v).map(|x| x / pdf)), pdf }
+        }
+        other => other,
+    };
+    let sampler = OfFn::new(sample, move |l, v| cosine.pdf(l, v)).with_value(value);
+    let variance = variances(&[("peak", &sampler)], &[view(0.5, 30.0)]);
+    assert!((variance[0].albedo - 1.0).abs() < 1e-4 && variance[0].samples > 1e7, "{}", variance[0]);
+    let report = verify("peak", &sampler);
+    let albedo = report.views[1].albedo.unwrap();
+    assert!((albedo - 1.0).abs() < 1e-4, "{albedo}");
+    // Its mean weight is not known to 1e-3, and the verdict says so.
+    let verdict = report.views[1].verdict(Property::Albedo).unwrap();
+    assert!(matches!(&verdict.outcome, Outcome::NotChecked(why) if why.contains("cannot be told")), "{verdict}");
 }
 
 crate::sampling_suite!(paper_in_single, Lambert::new(Rgb::splat(0.8_f32)));

@@ -3,6 +3,7 @@
 use super::draws::pilot;
 use super::partition::{Chart, Density, Partition};
 use super::random::seed;
+use super::view::around_mirror;
 use super::{Effort, Sampler};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -42,6 +43,7 @@ pub fn variances(samplers: &[(&str, &dyn Sampler)], views: &[[f64; 3]]) -> Vec<V
 fn variance(name: &str, sampler: &dyn Sampler, v: [f64; 3]) -> Option<Variance> {
     let v = v.map(|x| sampler.precision().round(x));
     let mut places = pilot(sampler, v, Chart::new(v), seed(&format!("{name} {v:?}")), 1024);
+    places.extend(around_mirror(v));
     let Effort { tolerance, cells, .. } = Effort::QUICK;
     let (sums, ..) = Partition::new(&Density { sampler, v }, &mut places, tolerance, cells).total();
     let albedo = sums.mean_value();

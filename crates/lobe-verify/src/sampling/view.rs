@@ -24,6 +24,8 @@ const ALBEDO: f64 = 1e-3;
 const ERRORS: f64 = 8.0;
 /// A third moment, over the root of the number of samples, up to which a mean is normal to five standard errors.
 const SKEWED: f64 = 0.02;
+/// The mean of fewer samples than that, among all, says nothing.
+const LEAST_SHARING: f64 = 100.0;
 /// Samples that show where the density is.
 const PILOT: usize = 1024;
 /// Quantiles at which distribution functions are compared.
@@ -63,9 +65,10 @@ fn look(name: &str, sampler: &dyn Sampler, claims: &Claims, v: [f64; 3], effort:
 
     let density = Density { sampler, v };
     let mut places = pilot(sampler, v, super::partition::Chart::new(v), seed, PILOT);
+    let edges = quantiles(&places);
+    places.extend(around_mirror(v));
     let mut partition = Partition::new(&density, &mut places, effort.tolerance, effort.cells);
     let bins = partition.bins(&density, effort.bins);
-    let edges = quantiles(&places);
     let (sums, pdf_error, value_error) = partition.total();
     let plan = Plan { sampler, v, partition: &partition, bins: &bins, edges: &edges, seed };
     let tally = plan.draw(effort.samples);
@@ -102,6 +105,14 @@ fn look(name: &str, sampler: &dyn Sampler, claims: &Claims, v: [f64; 3], effort:
         samples_for_one_percent: (mean > 0.0).then(|| (variance / (1e-4 * mean * mean)).max(1.0)),
         fit,
     }
+}
+
+/// Places a hundred-thousandth around the mirror direction: a peak there that no sample meets has to be seen too.
+pub(super) fn around_mirror([x, y, z]: [f64; 3]) -> impl Iterator<Item = [f64; 2]> {
+    let mirror = super::partition::Chart::new([x, y, z]).locate([-x, -y, z]);
+    let near = |x: f64, step: i32| (x + 1e-5 * f64::from(step)).clamp(0.0, 1.0);
+    let grid = (0..25).map(|i| (i / 5 - 2, i % 5 - 2));
+    mirror.into_iter().flat_map(move |[a, s]| grid.clone().map(move |(i, j)| [near(a, i), near(s, j)]))
 }
 
 /// Places of the pilot, sorted along either axis, at most [`EDGES`].
@@ -160,7 +171,8 @@ impl Known<'_> {
         let size = (self.sums.pdf + missing - 1.0).abs();
         // Where no sample of n is rejected, a few in n still may be.
         let standard = standard.max(0.5 / self.even.count as f64);
-        let fails = !(size <= NORMALISED + self.pdf_error + ERRORS * standard)
+        let fails = size.is_nan()
+            || size > NORMALISED + self.pdf_error + ERRORS * standard
             || self.sums.pdf > 1.0 + NORMALISED + self.pdf_error
             || bad.is_some();
         let outcome = if fails {
@@ -286,13 +298,14 @@ impl Known<'_> {
             Precision::Double => ROUNDING,
         };
         let value: [f64; 3] = around.value.into();
-        let agrees = (super::partition::mean(value) - self.sums.mean_value()).abs()
-            <= around.error + self.value_error + rounding;
-        // Where both say they are sure and differ, the one that has looked where the samples are.
-        Some(if around.error <= self.value_error || agrees && around.error <= 1e-5 {
-            Reference { value, error: around.error + rounding, around_mirror: true }
+        let (near, cells) = (super::partition::mean(value), self.sums.mean_value());
+        let agree = (near - cells).abs() <= around.error + self.value_error + rounding;
+        // What differs more than either admits has missed a peak: the smaller.
+        let around_mirror = if agree { around.error <= self.value_error.max(1e-5) } else { near > cells };
+        Some(if around_mirror {
+            Reference { value, error: around.error + rounding, around_mirror }
         } else {
-            Reference { value: self.sums.value, error: self.value_error + rounding, around_mirror: false }
+            Reference { value: self.sums.value, error: self.value_error + rounding, around_mirror }
         })
     }
 
@@ -337,10 +350,19 @@ impl Known<'_> {
         // A NaN counts as the worst.
         let worst = channels.map(of).max_by(|a, b| a.0.total_cmp(&b.0));
         let (size, standard, mean, expected) = worst.unwrap_or((f64::NAN, f64::NAN, f64::NAN, f64::NAN));
-        let noise = ERRORS * standard + reference.error;
-        let fails = !(size <= ALBEDO + noise);
+        // So many samples share what is reflected: of too few the shifts cannot tell how they differ.
+        let e = self.sums.mean_value();
+        let sharing = self.even.count as f64 * e * e / self.sums.second.max(f64::MIN_POSITIVE);
+        let rare = e > 0.0 && sharing < LEAST_SHARING;
+        let noise = if rare { f64::INFINITY } else { ERRORS * standard + reference.error };
+        let fails = size.is_nan() || noise.is_nan() || size > ALBEDO + noise;
         let outcome = if fails {
             Outcome::Fails
+        } else if rare {
+            Outcome::NotChecked(format!(
+                "{sharing:.0} of {} samples bring the albedo: 1e-3 cannot be told",
+                self.even.count
+            ))
         } else if noise > ALBEDO {
             Outcome::NotChecked(format!(
                 "{} samples of the sequence leave a standard error of {standard:.0e}: 1e-3 cannot be told",

@@ -75,8 +75,8 @@ fn mirror_power(q: f64, [lx, ly, lz]: [f64; 3], [vx, vy, vz]: [f64; 3]) -> f64 {
 impl Sampler for Port {
     fn sample(&self, v: [f64; 3], u: [f64; 3]) -> Outcome<f64> {
         let [_, _, vz] = v;
-        // Also false for NaN: the reference samplers drop it.
-        if !(vz > 0.0) {
+        // NaN goes on, as in the engines.
+        if vz <= 0.0 {
             return Outcome::Rejected;
         }
         let [lx, ly, lz] = match self.model {
