@@ -42,7 +42,7 @@ mod view;
 
 pub use claims::Claims;
 pub use report::{Case, Fit, Observed, Outcome, Property, Report, Suite, Verdict, View};
-pub use sampler::{AsSampler, InDouble, InSingle, OfFn, Sampler};
+pub use sampler::{AsSampler, Claiming, InDouble, InSingle, OfFn, Sampler};
 pub use variance::{Variance, variances};
 pub use view::view;
 
@@ -125,7 +125,8 @@ pub fn verify_with<K>(
     suite.reports.pop().unwrap_or_else(|| Report { name: name.to_owned(), views: Vec::new() })
 }
 
-/// Many samplers by their names, each at the same views; the tests of all share the significance.
+/// Many samplers by their names, each at the same views and with its own claims, see [`Claiming`]; the tests of all share the
+/// significance.
 #[must_use]
 pub fn verify_all(samplers: &[(&str, &dyn Sampler)], views: &[[f64; 3]], effort: Effort) -> Suite {
     let reports =

@@ -56,6 +56,33 @@ pub struct InDouble<S>(pub S);
 #[derive(Clone, Copy, Debug)]
 pub struct InSingle<S>(pub S);
 
+/// A sampler with claims of its own, for a list of many.
+#[derive(Clone, Copy, Debug)]
+pub struct Claiming<S> {
+    /// The sampler.
+    pub sampler: S,
+    /// What it claims.
+    pub claims: Claims,
+}
+
+impl<S: Sampler> Sampler for Claiming<S> {
+    fn sample(&self, v: [f64; 3], u: [f64; 3]) -> Outcome<f64> {
+        self.sampler.sample(v, u)
+    }
+    fn pdf(&self, l: [f64; 3], v: [f64; 3]) -> f64 {
+        self.sampler.pdf(l, v)
+    }
+    fn eval_cos_pdf(&self, l: [f64; 3], v: [f64; 3]) -> Option<([f64; 3], f64)> {
+        self.sampler.eval_cos_pdf(l, v)
+    }
+    fn precision(&self) -> Precision {
+        self.sampler.precision()
+    }
+    fn claims(&self) -> Claims {
+        self.claims
+    }
+}
+
 fn vector<T>([x, y, z]: [T; 3]) -> Vec3<T> {
     Vec3::new(x, y, z)
 }

@@ -234,6 +234,12 @@ fn failing_inputs_are_told_with_the_simplest() {
     assert!(weight.to_string().contains("u = "));
     let mean = report.verdicts(Property::Albedo).next().unwrap();
     assert_eq!(mean.outcome, Outcome::Fails, "{mean}");
+    // Who claims no more of the weight is right about it, and still wrong about its mean.
+    let claiming = Claiming { sampler: &own, claims: Claims { weight: Some(0.1), ..Claims::OTHERS } };
+    let suite = verify_all(&[("heavier at the rim", &claiming)], &views(), Effort::QUICK);
+    let failing: Vec<_> =
+        suite.reports[0].views[0].verdicts.iter().filter(|v| !v.holds()).map(|v| v.property).collect();
+    assert_eq!(failing, [Property::MeanWeight, Property::Albedo]);
 }
 
 #[test]
