@@ -90,7 +90,7 @@ fn one_percent_of_a_fault_is_caught_at_the_full_count() {
 
 /// The table of the documentation: `cargo test -p lobe-verify --lib full_count -- --ignored --nocapture`.
 #[test]
-#[ignore = "a minute"]
+#[ignore = "some minutes"]
 fn the_table_of_faults_at_the_full_count() {
     for row in survey(Effort::FULL) {
         println!("{row}");
