@@ -18,6 +18,7 @@ pub mod interval;
 pub mod mediump;
 pub mod properties;
 pub mod rough;
+pub mod sampling;
 pub mod strategies;
 pub mod subject;
 pub mod sweep;
