@@ -59,8 +59,8 @@ by_the_cosine! {
     BurleyDiffuse
 }
 
-/// A cosine lobe that is transformed by `((a, 0, b), (0, c, 0), (d, 0, 1))`, in the frame whose x is the azimuth of the viewer, and
-/// of which what lies below the horizon is cut off before.
+/// A cosine lobe that is transformed by `((a, 0, b), (0, c, 0), (d, 0, 1))`, in the frame whose x is the azimuth of the
+/// viewer, and of which what lies below the horizon is cut off before.
 struct Clipped<R> {
     a: R,
     b: R,
@@ -124,11 +124,11 @@ impl<R: Real> Clipped<R> {
 
 /// By a clipped linearly transformed cosine lobe, and evenly where `u[0]` is below a part of at most 0.163.
 ///
-/// Portsmouth, Kutz and Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT 14(1), 2025, its "CLTC" sampling with the
-/// fitted numbers. The transformed lobe vanishes at grazing light from behind, where the value does not: hence the even part
-/// (test `eon_has_light_where_its_lobe_has_none`). Without roughness it is the cosine alone. The weight is `f_r (n·l)/pdf`, a
-/// quotient of two numbers of the order of 1. The variance of a white one of `r = 1` is a tenth of that by the cosine (test
-/// `eon_varies_less_than_by_the_cosine`: 0.023 for 0.215 at `n·v = 1/2`).
+/// Portsmouth, Kutz and Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT 14(1), 2025, its "CLTC"
+/// sampling with the fitted numbers. The transformed lobe vanishes at grazing light from behind, where the value does
+/// not: hence the even part (test `eon_has_light_where_its_lobe_has_none`). Without roughness it is the cosine alone.
+/// The weight is `f_r (n·l)/pdf`, a quotient of two numbers of the order of 1. The variance of a white one of `r = 1`
+/// is a tenth of that by the cosine (test `eon_varies_less_than_by_the_cosine`: 0.023 for 0.215 at `n·v = 1/2`).
 impl<R: Real> Draw<R> for Eon<R> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, [choice, x, y]: [R; 3]) -> Vec3<R> {

@@ -1,4 +1,5 @@
-//! What the samplers of single lobes share: the trait [`Draw`], from which [`Sample`](crate::Sample) follows, and a few maps.
+//! What the samplers of single lobes share: the trait [`Draw`], from which [`Sample`](crate::Sample) follows, and a few
+//! maps.
 
 use crate::Sampled;
 use core::f64::consts::{LN_2, TAU};
@@ -42,8 +43,8 @@ macro_rules! sample_by_drawing {
 }
 pub(crate) use sample_by_drawing;
 
-/// The sample: rejected where either direction is not above the horizon, and where the density is 0, which for some lobes
-/// it is for the last numbers before 1. So what is not rejected has a density above 0.
+/// The sample: rejected where either direction is not above the horizon, and where the density is 0, which for some
+/// lobes it is for the last numbers before 1. So what is not rejected has a density above 0.
 #[inline(always)]
 pub(crate) fn sample<R: Real, B: Draw<R>>(lobe: &B, v: Vec3<R>, u: [R; 3]) -> Sampled<R> {
     let l = lobe.direction(v, u);
@@ -70,13 +71,15 @@ pub(crate) fn mirrored<R: Real>(v: Vec3<R>) -> Vec3<R> {
     Vec3::new(-v.x, -v.y, v.z)
 }
 
-/// The direction of light for a facet of the unit normal `h`: `2 (v·h) h − v`. Above the horizon only for `v·h > 0`, if `h` is.
+/// The direction of light for a facet of the unit normal `h`: `2 (v·h) h − v`. Above the horizon only for `v·h > 0`, if
+/// `h` is.
 #[inline(always)]
 pub(crate) fn by_facet<R: Real>(h: Vec3<R>, v: Vec3<R>) -> Vec3<R> {
     h * h.dot(v).times(2.0) - v
 }
 
-/// `s = l + v` by [`Real::SCALE`], and `|s|` by as much: grazing cosines of 1e-20 have squares below the range of `f32`.
+/// `s = l + v` by [`Real::SCALE`], and `|s|` by as much: grazing cosines of 1e-20 have squares below the range of
+/// `f32`.
 #[inline(always)]
 pub(crate) fn scaled_sum<R: Real>(l: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
     let s = (l + v) * l.z.lift(R::SCALE);

@@ -1,4 +1,5 @@
-//! Lobes that were fitted to measurements or derived from wave optics: two by their own profile, two by facets that cover them.
+//! Lobes that were fitted to measurements or derived from wave optics: two by their own profile, two by facets that
+//! cover them.
 
 use crate::draw::{Draw, by_facet, exp_m1_by, ln_1p_by, sample_by_drawing, scaled_sum, tilted};
 use core::f64::consts::{FRAC_1_PI, LOG2_E, PI, TAU};
@@ -6,8 +7,8 @@ use lobe::distribution::{Distribution, Ggx, SmithLambda};
 use lobe::fresnel::{Dielectric, Fresnel, Incidence};
 use lobe::{Alpha, Brdf, HeTorrance, LowMicrofacet, LowSmooth, Real, Rgb, ShiftedGamma, Vec3};
 
-/// The profile `(1 + B x)^(−C)` over `x` from 0 to an end, and its way back: `∫ = (((1 + B x)^(1−C) − 1)/(B (1 − C))`, whose limits
-/// `C → 1`, a logarithm, and `B → 0`, `x` itself, come out of quotients that are smooth there.
+/// The profile `(1 + B x)^(−C)` over `x` from 0 to an end, and its way back: `∫ = (((1 + B x)^(1−C) − 1)/(B (1 − C))`,
+/// whose limits `C → 1`, a logarithm, and `B → 0`, `x` itself, come out of quotients that are smooth there.
 struct Profile<R> {
     b: R,
     /// `1 − C`.
@@ -30,8 +31,8 @@ impl<R: Real> Profile<R> {
     #[inline(always)]
     fn at(&self, u: R) -> R {
         let below = u * self.whole;
-        // Of a profile that has fallen to less than a rounding this is −1 for the last u, and the logarithm infinite, or below
-        // and NaN (test `the_last_number_is_at_the_end`).
+        // Of a profile that has fallen to less than a rounding this is −1 for the last u, and the logarithm infinite,
+        // or below and NaN (test `the_last_number_is_at_the_end`).
         let rise = (self.rise * (self.b * below)).max(u.lift(-1.0));
         let log = (below * ln_1p_by(rise)).min(self.log);
         log * exp_m1_by(self.b * log)
@@ -57,9 +58,9 @@ fn deviation<R: Real>(lobe: &LowSmooth<R>, v: Vec3<R>) -> Profile<R> {
     Profile::new(lobe.b(), lobe.c(), end)
 }
 
-/// By its own profile: `l_xy` on a disc around `−v_xy`, with the density `(1 + B |l_xy + v_xy|²)^(−C)`, of which what lies outside the
-/// unit disc is rejected; per solid angle `n·l` times as much. The weight is `A F` and the profile's integral, the same for all
-/// samples but for `F`.
+/// By its own profile: `l_xy` on a disc around `−v_xy`, with the density `(1 + B |l_xy + v_xy|²)^(−C)`, of which what
+/// lies outside the unit disc is rejected; per solid angle `n·l` times as much. The weight is `A F` and the profile's
+/// integral, the same for all samples but for `F`.
 impl<R: Real> Draw<R> for LowSmooth<R> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
@@ -93,8 +94,8 @@ impl<R: Real> Draw<R> for LowSmooth<R> {
     }
 }
 
-/// By its own profile: `h` with the density `(1 + B (1 − n·h))^(−C)`. The weight is `8π A F G (l·h)/(π (n·v))` and the profile's
-/// integral; with `G` of V-cavities at most 2 `(n·h)(n·v)/(l·h)` it is bounded at every view.
+/// By its own profile: `h` with the density `(1 + B (1 − n·h))^(−C)`. The weight is `8π A F G (l·h)/(π (n·v))` and the
+/// profile's integral; with `G` of V-cavities at most 2 `(n·h)(n·v)/(l·h)` it is bounded at every view.
 impl<R: Real> Draw<R> for LowMicrofacet<R> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
@@ -126,7 +127,8 @@ impl<R: Real> Draw<R> for LowMicrofacet<R> {
     }
 }
 
-/// The light by the facets of GGX that a viewer sees: a density that covers a lobe of about this width, and has a tail beyond it.
+/// The light by the facets of GGX that a viewer sees: a density that covers a lobe of about this width, and has a tail
+/// beyond it.
 struct Facets<R>(Ggx<R>);
 
 impl<R: Real> Facets<R> {
@@ -136,13 +138,13 @@ impl<R: Real> Facets<R> {
         Self(Ggx::new(Alpha(alpha.max(alpha.lift(1e-4)).min(alpha.lift(1.0)))))
     }
 
-    /// Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023: where the ellipsoid is the unit sphere, the
-    /// facet is halfway between the viewer and an even point of the cap of `z > −v.z`.
+    /// Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023: where the ellipsoid is the unit
+    /// sphere, the facet is halfway between the viewer and an even point of the cap of `z > −v.z`.
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, x: R, y: R) -> Vec3<R> {
         let alpha = self.0.alpha().0;
-        // Of a viewer below the horizon, whose sample is rejected, the one above: straight from below no facet is seen, and
-        // its normal would be 0/0.
+        // Of a viewer below the horizon, whose sample is rejected, the one above: straight from below no facet is seen,
+        // and its normal would be 0/0.
         let w = Vec3::new(v.x * alpha, v.y * alpha, v.z.abs()).normalize();
         let (sin_phi, cos_phi) = y.times(TAU).sin_cos();
         // z = (1 − x)(1 + w.z) − w.z, and z + w.z, 1 − z and 1 + z without the difference.
@@ -160,9 +162,9 @@ impl<R: Real> Facets<R> {
     }
 }
 
-/// The width of the lobe in half vectors, `α² = (2σ/τ)² + w²`: of the slopes where the surface is rough; where it is smooth, of the
-/// deviation `1/(πτ)` that diffraction gives, by the sum of the cosines, of which that of the light is about
-/// `√((n·v)² + 1/(πτ))`.
+/// The width of the lobe in half vectors, `α² = (2σ/τ)² + w²`: of the slopes where the surface is rough; where it is
+/// smooth, of the deviation `1/(πτ)` that diffraction gives, by the sum of the cosines, of which that of the light is
+/// about `√((n·v)² + 1/(πτ))`.
 #[inline(always)]
 fn he<R: Real>(lobe: &HeTorrance<R>, v: Vec3<R>) -> Facets<R> {
     let deviation = lobe.tau().times(PI).recip();
@@ -173,9 +175,9 @@ fn he<R: Real>(lobe: &HeTorrance<R>, v: Vec3<R>) -> Facets<R> {
 
 /// By the visible facets of a GGX as wide as the lobe. The weight is `f_r (n·l)/pdf`.
 ///
-/// The lobe is a series of Gaussians of which each counts with a weight of its own: none can be drawn in closed form, but
-/// all fall faster than GGX, whose density vanishes nowhere above the horizon. A part by the cosine would lower no weight, and add to the
-/// variance (test `covered_lobes_have_bounded_weights`).
+/// The lobe is a series of Gaussians of which each counts with a weight of its own: none can be drawn in closed form,
+/// but all fall faster than GGX, whose density vanishes nowhere above the horizon. A part by the cosine would lower no
+/// weight, and add to the variance (test `covered_lobes_have_bounded_weights`).
 impl<R: Real> Draw<R> for HeTorrance<R> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
@@ -199,8 +201,8 @@ impl<R: Real> Draw<R> for HeTorrance<R> {
     }
 }
 
-/// The widths that cover the three channels, each with its part of the samples. The end `exp(−tan²/α)` of
-/// a channel has slopes of `√α`, its peak, where `t^(−p)` begins to fall, those of `α`: for the exponents of published fits, below
+/// The widths that cover the three channels, each with its part of the samples. The end `exp(−tan²/α)` of a channel has
+/// slopes of `√α`, its peak, where `t^(−p)` begins to fall, those of `α`: for the exponents of published fits, below
 /// 1/2, most of the light is in the former.
 #[inline(always)]
 fn gamma<R: Real>(lobe: &ShiftedGamma<R>) -> [(R, f64); 6] {

@@ -1,8 +1,9 @@
 //! Power lobes: around the mirror direction, around an axis of their own, and of half vectors.
 //!
-//! With `1 − cos θ = −expm1(ln(1 − u)/(q + 1))` the angle of a lobe of any exponent has all its digits; the cosine itself, near 1,
-//! has lost them at `q = 10⁶`. The density is that of the direction as it was rounded: a unit in the last place of the direction
-//! moves it by `√q u` and more down the lobe, but the weight, from which the lobe has cancelled, by `u`.
+//! With `1 − cos θ = −expm1(ln(1 − u)/(q + 1))` the angle of a lobe of any exponent has all its digits; the cosine
+//! itself, near 1, has lost them at `q = 10⁶`. The density is that of the direction as it was rounded: a unit in the
+//! last place of the direction moves it by `√q u` and more down the lobe, but the weight, from which the lobe has
+//! cancelled, by `u`.
 
 use crate::draw::{
     Draw, by_facet, exp_m1_by, ln_complement, mirrored, sample_by_drawing, scaled_sum, tilted, times_pi,
@@ -49,7 +50,8 @@ fn half_vector_power<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
     BlinnTorranceHighlight::new(Rgb::splat(q.lift(1.0)), lobe::Shininess(q)).eval_cos(l, v).r
 }
 
-/// About the mean of `n·l` over a lobe of this exponent whose axis has the cosine `z`: `z`, and at the horizon the half of the width.
+/// About the mean of `n·l` over a lobe of this exponent whose axis has the cosine `z`: `z`, and at the horizon the half
+/// of the width.
 #[inline(always)]
 fn mean_cosine<R: Real>(z: R, q: R) -> R {
     z.max(q.plus(1.0).sqrt().recip().times(0.5))
@@ -100,9 +102,11 @@ impl<R: Real> Draw<R> for PhongHighlight<R> {
     }
 }
 
-/// By `h` with the density `(q + 2)/2π (n·h)^(q+1)`: the weight is `ks N 4π/(q + 2) |l + v|² (n·l)/(n·l + n·v)`, bounded.
+/// By `h` with the density `(q + 2)/2π (n·h)^(q+1)`: the weight is `ks N 4π/(q + 2) |l + v|² (n·l)/(n·l + n·v)`,
+/// bounded.
 ///
-/// With `(n·h)^q` the weight is bounded too, but at the normal it is `(n·h)` times as much: more variance for a wide lobe.
+/// With `(n·h)^q` the weight is bounded too, but at the normal it is `(n·h)` times as much: more variance for a wide
+/// lobe.
 impl<R: Real, N: Normalization> Draw<R> for BlinnPhong<R, N> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
@@ -154,12 +158,13 @@ impl<R: Real> Draw<R> for BlinnTorranceHighlight<R> {
     }
 }
 
-/// By `h` with the density `√((nu+1)(nv+1))/2π (n·h)^e`, `e = nu cos²φ + nv sin²φ`: the weight is `F (n·l)/max(n·l, n·v)`, at most 1.
+/// By `h` with the density `√((nu+1)(nv+1))/2π (n·h)^e`, `e = nu cos²φ + nv sin²φ`: the weight is `F (n·l)/max(n·l,
+/// n·v)`, at most 1.
 ///
-/// Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", JGT 5(2), 2000. The azimuth, there
-/// `tan φ = √((nu+1)/(nv+1)) tan(πu/2)` in the first quadrant and turned into the others, is here that of
-/// `(cos ψ/√(nu+1), sin ψ/√(nv+1))` with `ψ = 2πu`: the same in all four, and without a tangent that is infinite. The square
-/// of that vector is `1/(e + 1)`.
+/// Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", JGT 5(2), 2000. The azimuth, there `tan φ =
+/// √((nu+1)/(nv+1)) tan(πu/2)` in the first quadrant and turned into the others, is here that of `(cos ψ/√(nu+1), sin
+/// ψ/√(nv+1))` with `ψ = 2πu`: the same in all four, and without a tangent that is infinite. The square of that vector
+/// is `1/(e + 1)`.
 impl<R: Real> Draw<R> for AshikhminShirley<R> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
@@ -271,13 +276,13 @@ fn lafortune<R: Real>(lobe: &Lafortune<R>, v: Vec3<R>) -> Lobe<R> {
     }
 }
 
-/// By its own power around the axis `(Cx v.x, Cy v.y, Cz v.z)`, on which every value depends as `(a·l)^q`: the weight is
-/// `2π/(q + 1) ks N |C v|^q (n·l)`.
+/// By its own power around the axis `(Cx v.x, Cy v.y, Cz v.z)`, on which every value depends as `(a·l)^q`: the weight
+/// is `2π/(q + 1) ks N |C v|^q (n·l)`.
 ///
-/// Lafortune, Foo, Torrance and Greenberg, "Non-Linear Approximation of Reflectance Functions", SIGGRAPH 1997.
-/// Where the axis is not above the horizon, every second sample is by the cosine: without, most samples would be
-/// rejected, all of a sharp lobe, while what is above the horizon has a value (test `an_axis_below_the_horizon`). Where the
-/// axis vanishes, the lobe is sampled around the normal, and the value is 0.
+/// Lafortune, Foo, Torrance and Greenberg, "Non-Linear Approximation of Reflectance Functions", SIGGRAPH 1997. Where
+/// the axis is not above the horizon, every second sample is by the cosine: without, most samples would be rejected,
+/// all of a sharp lobe, while what is above the horizon has a value (test `an_axis_below_the_horizon`). Where the axis
+/// vanishes, the lobe is sampled around the normal, and the value is 0.
 impl<R: Real> Draw<R> for Lafortune<R> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, [choice, x, y]: [R; 3]) -> Vec3<R> {

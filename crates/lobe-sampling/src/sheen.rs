@@ -6,9 +6,9 @@ use lobe::{Brdf, Charlie, Real, Rgb, Vec3};
 
 /// Evenly over the hemisphere: `pdf = 1/2π`, and the weight is `2π f_r (n·l)`, which is bounded for every view.
 ///
-/// Its `D` could be sampled, `sin θ_h = u^(α/(2α + 1))`. But `D` has most of its facets near the horizon of `h`, and the weight
-/// `(l·h)/(n·h)` is without bound there: the mean of its square is `∫ D/(n·h)`, infinite. Estevez and Kulla 2017 found even
-/// samples to do better too.
+/// Its `D` could be sampled, `sin θ_h = u^(α/(2α + 1))`. But `D` has most of its facets near the horizon of `h`, and
+/// the weight `(l·h)/(n·h)` is without bound there: the mean of its square is `∫ D/(n·h)`, infinite. Estevez and Kulla
+/// 2017 found even samples to do better too.
 impl<R: Real> Draw<R> for Charlie<R> {
     #[inline(always)]
     fn direction(&self, _: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {

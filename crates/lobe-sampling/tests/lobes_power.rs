@@ -56,7 +56,8 @@ fn elsewhere() -> Vec<Case> {
         cases.push(case!(1e-6, Minnaert::new(KS, k)));
     }
     cases.push(case!(1e-6, AshikhminShirleyDiffuse::new(KS, Rgb::splat(0.04))));
-    // Towards a right angle to the axis a value is off by `u q/cos`, as any dot product is. Off-specular, anisotropic, turned back, and with the axis below the horizon.
+    // Towards a right angle to the axis a value is off by `u q/cos`, as any dot product is. Off-specular, anisotropic,
+    // turned back, and with the axis below the horizon.
     for c in [
         Vec3::new(-1.0, -1.0, 0.8),
         Vec3::new(-1.0, -0.3, 0.5),

@@ -11,7 +11,8 @@ pub(crate) struct Case {
     pub(crate) double: Box<dyn Sample<f64>>,
     pub(crate) single: Box<dyn Sample<f32>>,
     pub(crate) fast: Box<dyn Sample<Approximate<f32, Fast>>>,
-    /// How far `weight` may be from `eval_cos/pdf` in `f32`, of itself or of a hundredth of the albedo, whichever is more.
+    /// How far `weight` may be from `eval_cos/pdf` in `f32`, of itself or of a hundredth of the albedo, whichever is
+    /// more.
     pub(crate) tolerance: f64,
 }
 
@@ -82,8 +83,8 @@ impl Mean {
         self.0 += x;
         self.1 += x * x;
     }
-    /// The mean, and the standard error that as many independent samples would have. Halton's are spread more evenly: within
-    /// one, a test tells more faults than within four.
+    /// The mean, and the standard error that as many independent samples would have. Halton's are spread more evenly:
+    /// within one, a test tells more faults than within four.
     fn of(&self, n: f64) -> (f64, f64) {
         let mean = self.0 / n;
         (mean, ((self.1 / n - mean * mean).max(0.0) / n).sqrt())
@@ -262,7 +263,8 @@ pub(crate) fn nan_and_horizon(case: &Case) {
     }
 }
 
-/// Where a lobe has a value, its sampler has a density, and their quotient is at most `bound` times the albedo of its channel.
+/// Where a lobe has a value, its sampler has a density, and their quotient is at most `bound` times the albedo of its
+/// channel.
 pub(crate) fn weights_are_at_most(bound: f64, case: &Case, views: &[f64]) {
     for v in views.iter().map(|z| view(*z)) {
         let sum = (0..4096).fold(Rgb::splat(0.0), |sum, i| sum + case.double.sample(v, point(i)).weight);
