@@ -141,7 +141,11 @@ impl<R: Real, F: Fresnel<R>, E: GgxAlbedo<R>> Turquin<F, R, E> {
         let loss = self.energy.loss(v.z);
         // Selected before the product: below the horizon the loss is not a number.
         let gain = above_horizon(l, v, loss / (one - loss));
-        single * self.f0.map(|f0| (f0 * gain).plus(1.0))
+        single
+            * self.f0.map(
+                #[inline(always)]
+                |f0| (f0 * gain).plus(1.0),
+            )
     }
 }
 
@@ -190,18 +194,30 @@ impl<R: Real> FdezAguera<R> {
     /// What is added to the single reflection, in sr⁻¹.
     #[inline(always)]
     fn diffuse(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R> {
-        let one = v.z.lift(1.0);
-        let (lost, tilt) = (self.table.loss(v.z), self.table.fresnel_weight(v.z));
-        let channel = |f0: R, rho: R| {
-            let single = (one - lost) * (f0 + (one - f0) * tilt);
-            let mean = f0 + (one - f0).times(1.0 / 21.0);
-            let further = single * mean / (one - lost * mean) * lost;
-            let value = (further + rho * (one - single - further)).times(FRAC_1_PI);
-            above_horizon(l, v, value * weight)
-        };
+        let (lost, through) = (self.table.loss(v.z), self.table.through_weight(v.z));
         let (f0, rho) = (self.f0, self.rho);
-        Rgb::new(channel(f0.r, rho.r), channel(f0.g, rho.g), channel(f0.b, rho.b))
+        let rgb = Rgb::new(
+            added(f0.r, rho.r, lost, through),
+            added(f0.g, rho.g, lost, through),
+            added(f0.b, rho.b, lost, through),
+        );
+        rgb.map(
+            #[inline(always)]
+            |value| above_horizon(l, v, value * weight),
+        )
     }
+}
+
+/// `(F_ms E_ms + ρ (1 − F_ss E_ss − F_ms E_ms))/π` from `1 − A − B` and `1 − w` of Schlick's term.
+#[inline(always)]
+fn added<R: Real>(f0: R, rho: R, lost: R, through: R) -> R {
+    let one = f0.lift(1.0);
+    let single = (one - lost) * (f0 + (one - f0) * (one - through));
+    let mean = f0 + (one - f0).times(1.0 / 21.0);
+    // What is left for the base as a sum over the same denominator: the difference loses its digits where that is
+    // little.
+    let left = (one - f0) * ((one - lost) * through + lost.times(20.0 / 21.0));
+    (single * mean * lost + rho * left).times(FRAC_1_PI) / (one - lost * mean)
 }
 
 impl<R: Real> Brdf<R> for FdezAguera<R> {
@@ -267,11 +283,12 @@ impl<R: Real> CoupledDiffuse<R> {
         coupled
     }
 
-    /// `1 − E(μ)` of the specular lobe.
+    /// `1 − E(μ)` of the specular lobe, as a sum: what is lost between its facets, and what Fresnel's term lets through.
     #[inline(always)]
     fn passed(&self, mu: R) -> R {
         let one = mu.lift(1.0);
-        one - (one - self.table.loss(mu)) * (self.f0 + (one - self.f0) * self.table.fresnel_weight(mu))
+        let loss = self.table.loss(mu);
+        loss + (one - loss) * (one - self.f0) * self.table.through_weight(mu)
     }
 
     #[inline(always)]

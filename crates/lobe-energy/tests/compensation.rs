@@ -168,6 +168,51 @@ fn the_lobes_keep_what_lobes_promise() {
     }
 }
 
+/// In `f32` as in `f64`, to the last cosine: the table to all digits, the polynomial to those of its terms.
+#[test]
+fn losses_keep_their_digits_at_the_horizon() {
+    for alpha in WIDTHS.map(|alpha| alpha as f32) {
+        let (table, fit): (GgxTable, GgxFit) = (GgxTable::new(Alpha(alpha)), GgxFit::new(Alpha(alpha)));
+        let (exact, polynomial) = (GgxTable::new(Alpha(f64::from(alpha))), GgxFit::new(Alpha(f64::from(alpha))));
+        for mu in [f32::MIN_POSITIVE, 1e-30, 1e-20, 1e-8, 1e-4, 0.01, 0.3, 1.0] {
+            let wide = f64::from(mu);
+            let (found, loss) = (f64::from(table.loss(mu)), exact.loss(wide));
+            assert!((found - loss).abs() <= 1e-5 * loss, "{alpha} {mu}: {found:e} {loss:e}");
+            let (found, through) = (f64::from(table.through_weight(mu)), exact.through_weight(wide));
+            // At 1 the weight of rough facets is 0.05 and that of sharp ones 0.
+            assert!((found - through).abs() <= 1e-5 * through, "{alpha} {mu}: {found:e} {through:e}");
+            let corner = lobe_energy::Corner::new(f64::from(alpha), wide);
+            let error = (f64::from(fit.loss(mu)) - polynomial.loss(wide)).abs();
+            assert!(error <= 5e-7 * corner.x * corner.scale, "{alpha} {mu}: {error:e}");
+            assert!(fit.loss(mu) >= 0.0);
+        }
+    }
+}
+
+/// What the polynomial's bound and the sum for the base are for: without the one this is negative, without the other noise.
+#[test]
+fn little_is_not_lost() {
+    let at = |mu: f32| Vec3::new((1.0 - mu * mu).sqrt(), 0.0, mu);
+    // Of a term that is 0 along the half vector nothing but further reflections is left.
+    let black = Schlick::with_f90(Rgb::splat(0.0), Rgb::splat(1.0_f32));
+    for alpha in (1..1000).map(|i| i as f32 / 1000.0) {
+        let metal: KullaConty<_> = KullaConty::new(Alpha(alpha), black);
+        for mu in [1e-12, 1e-8, 1e-4, 0.1] {
+            let f = metal.eval(at(0.08), at(mu)).g;
+            assert!(f >= 0.0, "{alpha} {mu}: {f:e}");
+        }
+    }
+    // A base under a mirror, far from the mirror direction.
+    for alpha in (100..400).map(|i| i as f32 * 1e-6) {
+        let mirror = FdezAguera::new(Alpha(alpha), Rgb::splat(1.0), Rgb::splat(1.0));
+        for mu in [0.2, 0.3, 0.5, 0.7] {
+            let f = f64::from(mirror.eval(at(mu), at(mu)).g);
+            let exact = mirror.carry(&f64::from).eval(at(mu).map(f64::from), at(mu).map(f64::from)).g;
+            assert!((f - exact).abs() <= 2e-5 * exact, "{alpha} {mu}: {f:e} {exact:e}");
+        }
+    }
+}
+
 /// How far what engines use is from the integral: the figures of the documentation.
 #[test]
 fn the_splits_of_engines_are_off_by_a_known_part() {
