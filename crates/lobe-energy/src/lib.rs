@@ -49,6 +49,6 @@ mod quadrature;
 pub use albedo::{Albedo, Exchanged, directional_albedo, directional_albedo_to};
 pub use compensation::{CoupledDiffuse, FdezAguera, KullaConty, Turquin, average_fresnel};
 pub use corner::Corner;
-pub use furnace::{masking, weak_white_furnace};
+pub use furnace::{masking, weak_white_furnace, weak_white_furnace_to};
 pub use ggx::{GgxAlbedo, GgxFit, GgxTable};
 pub use half_vector::{average_albedo, microfacet_albedo, microfacet_albedo_to};
