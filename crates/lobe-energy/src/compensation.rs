@@ -88,7 +88,7 @@ impl<R: Real, F: Fresnel<R>, E: GgxAlbedo<R>> KullaConty<F, R, E> {
 
 /// `factor` where both directions are above the horizon, and 0 elsewhere; the lobe beside it keeps a NaN.
 #[inline(always)]
-fn above_horizon<R: Real>(l: Vec3<R>, v: Vec3<R>, factor: R) -> R {
+pub(crate) fn above_horizon<R: Real>(l: Vec3<R>, v: Vec3<R>, factor: R) -> R {
     let zero = factor.lift(0.0);
     R::select(l.z.min(v.z).gt(zero), factor, zero)
 }
@@ -245,6 +245,46 @@ impl Carry for FdezAguera<f32> {
     }
 }
 
+/// What a GGX dielectric with Schlick's term reflects and lets pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Interface<R> {
+    table: GgxTable<R>,
+    f0: R,
+}
+
+impl<R: Real> Interface<R> {
+    #[inline]
+    pub(crate) fn new(alpha: Alpha<R>, f0: R) -> Self {
+        Self { table: GgxTable::new(alpha), f0 }
+    }
+
+    /// `1 − E(μ)`, as a sum: what is lost between the facets, and what Fresnel's term lets through.
+    #[inline(always)]
+    pub(crate) fn passed(&self, mu: R) -> R {
+        let one = mu.lift(1.0);
+        let loss = self.table.loss(mu);
+        loss + (one - loss) * (one - self.f0) * self.table.through_weight(mu)
+    }
+
+    /// `2 ∫ (1 − E(μ)) μ dμ`, of what is interpolated.
+    #[inline]
+    pub(crate) fn mean_passed(&self) -> R {
+        let mut mean = self.f0.lift(0.0);
+        for (root, weight) in GAUSS_LEGENDRE_8 {
+            mean = mean + self.passed(mean.lift(root * root)).times(4.0 * weight * root * root * root);
+        }
+        mean
+    }
+}
+
+impl Carry for Interface<f32> {
+    type In<S: Real> = Interface<S>;
+    #[inline(always)]
+    fn carry<S: Real>(&self, lift: &impl Fn(f32) -> S) -> Interface<S> {
+        Interface { table: self.table.carry(lift), f0: self.f0.carry(lift) }
+    }
+}
+
 /// A diffuse base under a GGX dielectric that takes nothing it does not reflect:
 /// `f = f_single + ρ (1 − E(l)) (1 − E(v))/(π (1 − E_mean))`, with `E` the albedo of the specular lobe, Fresnel's term in it.
 ///
@@ -263,8 +303,7 @@ impl Carry for FdezAguera<f32> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoupledDiffuse<R = f32> {
     single: Microfacet<Ggx<R>, SmithCorrelated, lobe::fresnel::Schlick<R>>,
-    table: GgxTable<R>,
-    f0: R,
+    interface: Interface<R>,
     scale: Rgb<R>,
 }
 
@@ -273,27 +312,18 @@ impl<R: Real> CoupledDiffuse<R> {
     #[inline]
     pub fn new(alpha: Alpha<R>, f0: R, rho: Rgb<R>) -> Self {
         let single = Microfacet::new(Ggx::new(alpha), SmithCorrelated, lobe::fresnel::Schlick::new(Rgb::splat(f0)));
-        let mut coupled = Self { single, table: GgxTable::new(alpha), f0, scale: rho };
-        // Of what is interpolated, so that the base keeps all that it gets.
-        let mut passed = f0.lift(0.0);
-        for (root, weight) in GAUSS_LEGENDRE_8 {
-            passed = passed + coupled.passed(f0.lift(root * root)).times(4.0 * weight * root * root * root);
-        }
-        coupled.scale = rho.map(|rho| rho.times(FRAC_1_PI) / passed);
-        coupled
-    }
-
-    /// `1 − E(μ)` of the specular lobe, as a sum: what is lost between its facets, and what Fresnel's term lets through.
-    #[inline(always)]
-    fn passed(&self, mu: R) -> R {
-        let one = mu.lift(1.0);
-        let loss = self.table.loss(mu);
-        loss + (one - loss) * (one - self.f0) * self.table.through_weight(mu)
+        let interface = Interface::new(alpha, f0);
+        let passed = interface.mean_passed();
+        let scale = rho.map(
+            #[inline(always)]
+            |rho| rho.times(FRAC_1_PI) / passed,
+        );
+        Self { single, interface, scale }
     }
 
     #[inline(always)]
     fn base(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R> {
-        self.scale * above_horizon(l, v, self.passed(l.z) * self.passed(v.z) * weight)
+        self.scale * above_horizon(l, v, self.interface.passed(l.z) * self.interface.passed(v.z) * weight)
     }
 }
 
@@ -315,8 +345,7 @@ impl Carry for CoupledDiffuse<f32> {
     fn carry<S: Real>(&self, lift: &impl Fn(f32) -> S) -> CoupledDiffuse<S> {
         CoupledDiffuse {
             single: self.single.carry(lift),
-            table: self.table.carry(lift),
-            f0: self.f0.carry(lift),
+            interface: self.interface.carry(lift),
             scale: self.scale.carry(lift),
         }
     }

@@ -24,7 +24,8 @@ impl<R: Real> Corner<R> {
     pub fn new(alpha: R, mu: R) -> Self {
         let one = alpha.lift(1.0);
         let inverse = (mu + alpha).recip();
-        // Of the smallest cosines the product with α² is below the smallest normal number: a power of two keeps its digits.
+        // Of the smallest cosines the product with α² is below the smallest normal number: a power of two keeps its
+        // digits.
         let square = mu.times(R::SCALE) * (mu * alpha.times(2.0).plus(1.0) + alpha.squared());
         let x = (square.sqrt().times(1.0 / R::ROOT_SCALE) * inverse).min(one);
         // 1 − x = (1 − x²)/(1 + x), without the difference: 1 − x² = α (1 − μ) (2μ + α)/(μ + α)².

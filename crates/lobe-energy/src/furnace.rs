@@ -48,8 +48,8 @@ pub fn weak_white_furnace<D: Distribution<f64>, G: Masking<f64, D>>(
     weak_white_furnace_to(AGREEMENT, distribution, g, alpha, v)
 }
 
-/// [`weak_white_furnace`], but the panels are halved only until two results agree to `agreement`: a distribution with corners, such as
-/// a [`Tabulated`](lobe::distribution::Tabulated), takes many.
+/// [`weak_white_furnace`], but the panels are halved only until two results agree to `agreement`: a distribution with
+/// corners, such as a [`Tabulated`](lobe::distribution::Tabulated), takes many.
 pub fn weak_white_furnace_to<D: Distribution<f64>, G: Masking<f64, D>>(
     agreement: f64,
     distribution: &D,

@@ -34,7 +34,8 @@ pub struct GgxTable<R = f32> {
     mean: R,
 }
 
-/// [`GgxAlbedo`] from [`Corner::x`] times a polynomial of degree 10 in it, whose coefficients are polynomials of degree 9 in `√α`.
+/// [`GgxAlbedo`] from [`Corner::x`] times a polynomial of degree 10 in it, whose coefficients are polynomials of degree
+/// 9 in `√α`.
 ///
 /// `E` is within 5e-4 of the integral for `α` from 1e-4 to 1 and all cosines (test `the_table_and_the_fit_are_near`).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,8 +48,8 @@ pub struct GgxFit<R = f32> {
 const NODES: usize = LOSS.len();
 const DEGREES: usize = LOSS_FIT.len();
 
-/// `max(0, 1 − |x − i|)`, what node `i` has of the linear interpolation at `x`: the lesser distance to its neighbours, which next to
-/// the first node is `x` to all digits.
+/// `max(0, 1 − |x − i|)`, what node `i` has of the linear interpolation at `x`: the lesser distance to its neighbours,
+/// which next to the first node is `x` to all digits.
 #[inline(always)]
 fn hat<R: Real>(x: R, i: usize) -> R {
     let i = i as f64;
@@ -177,8 +178,9 @@ impl<R: Real> GgxAlbedo<R> for GgxFit<R> {
     #[inline(always)]
     fn loss(&self, mu: R) -> R {
         let corner = Corner::new(self.alpha, mu);
-        // With the factor `x` nothing is lost at the horizon, and near it the loss keeps its digits. There the polynomial ends a
-        // little below 0 for some widths, and without the bound a lobe of black facets would be negative.
+        // With the factor `x` nothing is lost at the horizon, and near it the loss keeps its digits. There the
+        // polynomial ends a little below 0 for some widths, and without the bound a lobe of black facets would be
+        // negative.
         chebyshev(&self.coefficients, corner.x).max(mu.lift(0.0)) * corner.x * corner.scale
     }
 

@@ -6,7 +6,8 @@ use lobe::masking::SmithCorrelated;
 use lobe::{Alpha, Brdf, Carry, Ior, Microfacet, Rgb, Vec3};
 use lobe_energy::engines::{Brightened, Compensation, KarisMobile, MaterialX, SplitSum, Tabulated};
 use lobe_energy::{
-    CoupledDiffuse, FdezAguera, GgxAlbedo, GgxFit, GgxTable, KullaConty, Turquin, average_fresnel, microfacet_albedo_to,
+    AlbedoCoat, CoupledDiffuse, Even, FdezAguera, GgxAlbedo, GgxFit, GgxTable, KullaConty, Least, Turquin,
+    average_fresnel, microfacet_albedo_to,
 };
 
 /// Between the nodes of the tables and on them, to the ends of the domain.
@@ -135,6 +136,44 @@ fn a_white_base_makes_a_white_whole() {
     assert!(albedo(&plain, 0.3, 0.1).g > 1.1);
 }
 
+/// The table in the documentation of `AlbedoCoat`: the least and the largest albedo of a coat over a white base.
+#[test]
+fn coats_over_white_bases() {
+    let white = Rgb::splat(1.0_f64);
+    let metal: KullaConty<_, f64> = KullaConty::new(Alpha(0.3), Schlick::new(white));
+    let matte = lobe::Lambert::new(white);
+    let mut rows = [(f64::INFINITY, 0.0_f64); 6];
+    for (alpha, mu) in [0.01, 0.1, 0.3, 1.0].into_iter().flat_map(|alpha| [0.03, 0.2, 0.6, 1.0].map(|mu| (alpha, mu))) {
+        for f0 in [0.04, 0.17] {
+            let (width, term) = (Alpha(alpha), Schlick::new(Rgb::splat(f0)));
+            let top = Microfacet::new(Ggx::new(width), SmithCorrelated, term);
+            let lobes: [&dyn Brdf<f64>; 6] = [
+                &AlbedoCoat::<_, Even, f64>::new(width, f0, matte),
+                &AlbedoCoat::<_, Least, f64>::new(width, f0, matte),
+                &lobe::Coat::new(top, term, matte),
+                &AlbedoCoat::<_, Even, f64>::new(width, f0, metal),
+                &AlbedoCoat::<_, Least, f64>::new(width, f0, metal),
+                &lobe::Coat::new(top, term, metal),
+            ];
+            for (row, lobe) in rows.iter_mut().zip(lobes) {
+                let albedo = albedo(lobe, alpha, mu).g;
+                *row = (row.0.min(albedo), row.1.max(albedo));
+            }
+        }
+    }
+    println!("Lambert: even, least, coat; metal: the same: {rows:.3?}");
+    let [even, least, coat, even_metal, least_metal, coat_metal] = rows;
+    // One is CoupledDiffuse.
+    let (l, v) = (at(0.3), at(0.8));
+    let same = CoupledDiffuse::new(Alpha(0.3), 0.04, white).eval(l, v).g;
+    let one = AlbedoCoat::<_, Even, f64>::new(Alpha(0.3), 0.04, matte).eval(l, v).g;
+    assert!((one / same - 1.0).abs() < 1e-12);
+    let within = |(low, high): (f64, f64), least: f64, most: f64| low > least && high < most;
+    assert!(within(even, 0.997, 1.004) && within(even_metal, 0.97, 1.025), "{even:?} {even_metal:?}");
+    assert!(within(least, 0.95, 1.004) && within(least_metal, 0.95, 1.004), "{least:?} {least_metal:?}");
+    assert!(within(coat, 0.19, 0.95) && within(coat_metal, 0.18, 0.95), "{coat:?} {coat_metal:?}");
+}
+
 /// In `f32` as in `f64`, the same both ways to the last bit, black below the horizon, NaN for NaN.
 #[test]
 fn the_lobes_keep_what_lobes_promise() {
@@ -147,14 +186,18 @@ fn the_lobes_keep_what_lobes_promise() {
         let bright: Turquin<_> = Turquin::new(Alpha(alpha), gold);
         let both = FdezAguera::new(Alpha(alpha), Rgb::splat(0.04), Rgb::splat(0.5_f32));
         let base = CoupledDiffuse::new(Alpha(alpha), 0.04, Rgb::splat(0.5_f32));
+        let coat: AlbedoCoat<_> = AlbedoCoat::new(Alpha(alpha), 0.04, metal);
+        let even: AlbedoCoat<_, Even> = AlbedoCoat::new(Alpha(alpha), 0.04, metal);
         for l in directions.map(single) {
             for v in directions.map(single) {
                 assert_eq!(metal.eval(l, v), metal.eval(v, l));
                 assert_eq!(base.eval(l, v), base.eval(v, l));
+                assert_eq!(coat.eval(l, v), coat.eval(v, l));
+                assert_eq!(even.eval(l, v), even.eval(v, l));
                 let exact = wide.eval_cos(l.map(f64::from), v.map(f64::from)).g;
                 let found = f64::from(metal.eval_cos(l, v).g);
                 assert!((found - exact).abs() <= 2e-5 * exact + 1e-30, "{alpha} {l:?} {v:?}: {found} {exact}");
-                for lobe in [&metal as &dyn Brdf<f32>, &bright, &both, &base] {
+                for lobe in [&metal as &dyn Brdf<f32>, &bright, &both, &base, &coat, &even] {
                     let f = lobe.eval(l, v);
                     assert!(f.g >= 0.0 && f.g.is_finite(), "{alpha} {l:?} {v:?} {f:?}");
                     let below = Vec3::new(l.x, l.y, -l.z);
@@ -189,7 +232,8 @@ fn losses_keep_their_digits_at_the_horizon() {
     }
 }
 
-/// What the polynomial's bound and the sum for the base are for: without the one this is negative, without the other noise.
+/// What the polynomial's bound and the sum for the base are for: without the one this is negative, without the other
+/// noise.
 #[test]
 fn little_is_not_lost() {
     let at = |mu: f32| Vec3::new((1.0 - mu * mu).sqrt(), 0.0, mu);

@@ -90,7 +90,8 @@ fn other_maskings_are_off_by_a_known_part() {
     }
 }
 
-/// Distributions without a closed `Λ`: with Smith's of a table a viewer sees exactly the surface, as far as the table is right.
+/// Distributions without a closed `Λ`: with Smith's of a table a viewer sees exactly the surface, as far as the table
+/// is right.
 #[test]
 fn the_furnace_of_tabulated_maskings_is_as_white_as_the_table_is_right() {
     for alpha in [1e-4, 0.01, 0.3, 1.0].map(Alpha) {
@@ -104,8 +105,8 @@ fn the_furnace_of_tabulated_maskings_is_as_white_as_the_table_is_right() {
             }
         }
     }
-    // Of a drawn one the corners are what the table of Λ is wrong by: a Gaussian of 17° in steps of 1° and of 5°, a ring at 30°, and
-    // a single peak of two steps of 5°.
+    // Of a drawn one the corners are what the table of Λ is wrong by: a Gaussian of 17° in steps of 1° and of 5°, a
+    // ring at 30°, and a single peak of two steps of 5°.
     let bell = |i: usize, step: f64| (-0.09 * (i as f64 * step / 5.0).powi(2)).exp();
     let fine: [f64; 91] = core::array::from_fn(|i| bell(i, 1.0));
     let coarse: [f64; 19] = core::array::from_fn(|i| bell(i, 5.0));

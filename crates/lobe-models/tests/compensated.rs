@@ -1,8 +1,8 @@
 //! The compensated models of the catalogue: each is its type, and keeps the light that it promises to keep.
 
 use lobe::fresnel::{Conductor, Dielectric, Schlick, metals};
-use lobe::{Alpha, Brdf, Ior, Rgb, Vec3};
-use lobe_energy::{CoupledDiffuse, FdezAguera, KullaConty, Turquin, microfacet_albedo_to};
+use lobe::{Alpha, Brdf, Ior, MetallicRoughness, Rgb, Vec3};
+use lobe_energy::{AlbedoCoat, CoupledDiffuse, FdezAguera, KullaConty, Least, Turquin, microfacet_albedo_to};
 use lobe_models::{Lobe, Value, model};
 
 const L: Vec3<f64> = Vec3 { x: 0.96, y: 0.0, z: 0.28 };
@@ -41,6 +41,10 @@ fn each_name_is_its_type() {
     assert_eq!(eval(&*named("fdez-aguera", &[width, albedo, ("f0", F0)])), eval(&fdez));
     let coupled = CoupledDiffuse::new(alpha, 0.1, rho);
     assert_eq!(eval(&*named("coupled-diffuse", &[width, albedo, ("f0", Value::Number(0.1))])), eval(&coupled));
+    let metal = MetallicRoughness::new(f0, 1.0, Alpha(0.25));
+    let coat: AlbedoCoat<_, Least, f64> = AlbedoCoat::new(alpha, 0.04, metal);
+    let given = [width, ("base-color", F0), ("roughness", Value::Number(0.5))];
+    assert_eq!(eval(&*named("albedo-coat", &given)), eval(&coat));
 }
 
 /// To the ends of the domains a white one is white, as far as is said, and without it half of the light is gone.

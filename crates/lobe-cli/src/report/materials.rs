@@ -329,8 +329,8 @@ fn lost(material: &Material, seen: Option<&[f64; 3]>) -> Option<String> {
         seen?.iter().zip(gain).fold((0.0, 0.0), |most, (seen, gain)| if gain > most.1 { (*seen, gain) } else { most });
     (gain >= WORTH_A_WORD).then(|| {
         format!(
-            ". Straight on it reflects {:.1} %, and loses light between its facets: with `kulla-conty` in the place of `{}`, which gives \
-             further reflections back, it would be {:.1} %",
+            ". Straight on it reflects {:.1} %, and loses light between its facets: with `kulla-conty` in the place of \
+             `{}`, which gives further reflections back, it would be {:.1} %",
             seen * 100.0,
             replaced.join("` and `"),
             (seen + gain) * 100.0
@@ -387,8 +387,8 @@ mod tests {
     #[test]
     fn a_rough_metal_is_told_what_it_loses() {
         let white = told(r#"{"model": "microfacet", "alpha": 1, "f0": 1}"#);
-        let expected = "Straight on it reflects 30.7 %, and loses light between its facets: with `kulla-conty` in the place of \
-                        `microfacet`, which gives further reflections back, it would be 100.0 %";
+        let expected = "Straight on it reflects 30.7 %, and loses light between its facets: with `kulla-conty` in the \
+                        place of `microfacet`, which gives further reflections back, it would be 100.0 %";
         assert!(white.ends_with(expected), "{white}");
         let gltf = told(r#"{"model": "gltf", "base-color": [1, 1, 1], "metallic": 1, "roughness": 1}"#);
         assert!(gltf.ends_with(&expected.replace("microfacet", "gltf")), "{gltf}");

@@ -4,9 +4,10 @@ use super::fresnel::{self, any_fresnel};
 use super::{constructor, constructors};
 use crate::forms::AnyFresnel;
 use crate::{Bound, Model, Number, Parameter, Reader, Value};
-use lobe::{Alpha, Vec3};
+use lobe::{Alpha, MetallicRoughness, Vec3};
 use lobe_energy::{
-    Corner, CoupledDiffuse, FdezAguera, GgxAlbedo, GgxFit, GgxTable, KullaConty, Turquin, average_fresnel,
+    AlbedoCoat, Corner, CoupledDiffuse, FdezAguera, GgxAlbedo, GgxFit, GgxTable, KullaConty, Least, Turquin,
+    average_fresnel,
 };
 
 /// One width: what is lost depends on the direction's azimuth where there are two, and no table knows that.
@@ -20,7 +21,8 @@ pub(super) static MODELS: &[Model] = &[
         reciprocal: true,
         finite: true,
         bound: Bound::Derived {
-            formula: "2e-5, what microfacet adds for its Fresnel term, and 8u F_ms (w_l (1 − E(v)) + w_v (1 − E(l)))/(π (1 − E_mean) f), \
+            formula: "2e-5, what microfacet adds for its Fresnel term, and \
+                      8u F_ms (w_l (1 − E(v)) + w_v (1 − E(l)))/(π (1 − E_mean) f), \
                       w = x (α² + α (1 − x) + (1 − x)²/2), x ≈ cos θ/(cos θ + α)",
             at: kulla_conty_bound,
         },
@@ -37,7 +39,7 @@ pub(super) static MODELS: &[Model] = &[
     },
     Model {
         name: "fdez-aguera",
-        summary: "GGX with Schlick's term, its further reflections and a diffuse base, by the viewer's cosine (Fdez-Agüera 2019)",
+        summary: "GGX with its further reflections and a diffuse base, by the viewer's cosine (Fdez-Agüera 2019)",
         parameters: &[
             Parameter::reflectance("albedo", "the albedo of the base; 0 for metals"),
             ALPHA,
@@ -50,7 +52,7 @@ pub(super) static MODELS: &[Model] = &[
     },
     Model {
         name: "coupled-diffuse",
-        summary: "a diffuse base under a GGX dielectric, of which nothing is lost (Kelemen and Szirmay-Kalos 2001), reciprocal",
+        summary: "a diffuse base under a GGX dielectric, nothing lost (Kelemen and Szirmay-Kalos 2001), reciprocal",
         parameters: &[
             Parameter::reflectance("albedo", "the albedo of the base"),
             ALPHA,
@@ -61,6 +63,22 @@ pub(super) static MODELS: &[Model] = &[
         finite: true,
         bound: Bound::Constant,
         build: constructors!(coupled_diffuse),
+    },
+    Model {
+        name: "albedo-coat",
+        summary: "metallic-roughness of glTF under a GGX coat, scaled by what the coat's albedo leaves, reciprocal",
+        parameters: &[
+            Parameter::reflectance("base-color", "the base colour"),
+            Parameter::number("metallic", 0.0, 1.0, "0 dielectric, 1 metal").or(Value::Number(1.0)),
+            Parameter::number("roughness", 0.01, 1.0, "the perceptual roughness of the base, whose square is its α")
+                .or(Value::Number(1.0)),
+            Parameter { doc: "the width α of the coat", ..ALPHA },
+            Parameter::number("f0", 0.0, 0.5, "the coat's reflectance at normal incidence").or(Value::Number(0.04)),
+        ],
+        reciprocal: true,
+        finite: true,
+        bound: Bound::Constant,
+        build: constructors!(albedo_coat),
     },
 ];
 
@@ -81,8 +99,8 @@ fn interface_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     Bound::WORST + fresnel::excess(p, l, v)
 }
 
-/// The polynomial of the loss is a sum of terms near 1, and may itself be near 0 at grazing light: its error is one of `8u` beside
-/// them, and counts where the single reflection is as dark.
+/// The polynomial of the loss is a sum of terms near 1, and may itself be near 0 at grazing light: its error is one of
+/// `8u` beside them, and counts where the single reflection is as dark.
 fn kulla_conty_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     let (f, energy) = (kulla_conty::brdf(p).brdf.eval(l, v), GgxFit::new(alpha(p)));
     let one = |mu: f64| {
@@ -122,8 +140,19 @@ constructor! { pointwise: coupled_diffuse |p, finish| {
     finish(CoupledDiffuse::new(alpha(p), p.number("f0"), p.rgb("albedo")))
 } }
 
-/// The mean of Schlick's term over a reflection is 1 less something near 1 where `f0` is 0, and its error counts as far as further
-/// reflections do.
+fn base_alpha<R: Number>(p: &Reader<'_, R>) -> Alpha<R> {
+    Alpha(p.number("roughness").squared())
+}
+
+constructor! { pointwise: albedo_coat |p, finish| {
+    let width = base_alpha(p);
+    let base = MetallicRoughness::new(p.rgb("base-color"), p.number("metallic"), width);
+    let coat: AlbedoCoat<MetallicRoughness<R>, Least, R> = AlbedoCoat::new(alpha(p), p.number("f0"), base);
+    finish(coat)
+} }
+
+/// The mean of Schlick's term over a reflection is 1 less something near 1 where `f0` is 0, and its error counts as far
+/// as further reflections do.
 fn fdez_aguera_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     let (f, f0) = (fdez_aguera::brdf(p).brdf.eval(l, v), p.rgb("f0"));
     let loss = GgxTable::new(alpha(p)).loss(v.z);
