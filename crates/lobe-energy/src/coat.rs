@@ -59,15 +59,16 @@ impl<R: Real> Share<R> for Least {
 /// Reciprocal to the last bit if the base is. Domain: `α` from 1e-4 to 1, `F0` from 0 to 0.5.
 ///
 /// ```
-/// use lobe::{Alpha, Rgb, Vec3, fresnel::Schlick};
-/// use lobe_energy::{AlbedoCoat, KullaConty, Least, microfacet_albedo};
+/// use lobe::{Alpha, Brdf, Rgb, Vec3, fresnel::Schlick};
+/// use lobe_energy::{AlbedoCoat, KullaConty};
 ///
-/// let gold = Schlick::new(Rgb::new(1.0, 0.77, 0.34));
-/// let metal: KullaConty<_, f64> = KullaConty::new(Alpha(0.4), gold);
-/// let lacquered = AlbedoCoat::<_, Least, f64>::new(Alpha(0.1), 0.04, metal);
-/// let v = Vec3::new(0.6, 0.0, 0.8);
-/// let albedo = microfacet_albedo(&lacquered, (Alpha(0.1), Alpha(0.1)), v);
-/// assert!(albedo.value.r < 1.0 && albedo.value.b > 0.34);
+/// let gold = Schlick::new(Rgb::new(1.0, 0.77, 0.34_f32));
+/// let metal: KullaConty<_> = KullaConty::new(Alpha(0.4), gold);
+/// let lacquered: AlbedoCoat<_> = AlbedoCoat::new(Alpha(0.05), 0.04, metal);
+/// // Far from the coat's highlight the metal shows, a little darker.
+/// let (l, v) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.0, 1.0));
+/// let (bare, f) = (metal.eval(l, v), lacquered.eval(l, v));
+/// assert!(f.r < bare.r && f.r > 0.9 * bare.r && f == lacquered.eval(v, l));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlbedoCoat<B, S = Least, R = f32> {
