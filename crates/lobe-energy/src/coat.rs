@@ -51,10 +51,10 @@ impl<R: Real> Share<R> for Least {
 ///
 /// | white base | [`Even`] | [`Least`] | [`Coat`](lobe::Coat) |
 /// |---|---|---|---|
-/// | Lambert | 1.000 to 1.003 | 0.955 to 1.003 | 0.195 to 0.942 |
-/// | metal, `α = 0.3` | 0.976 to 1.022 | 0.956 to 1.003 | 0.188 to 0.938 |
+/// | Lambert | 1.000 to 1.002 | 0.961 to 1.002 | 0.195 to 0.920 |
+/// | metal, `α = 0.3` | 0.980 to 1.019 | 0.962 to 1.002 | 0.188 to 0.938 |
 ///
-/// The 3e-3 above 1 is the error of the table of `E`.
+/// The 2e-3 above 1 are the error of the table of `E`.
 ///
 /// Reciprocal to the last bit if the base is. Domain: `α` from 1e-4 to 1, `F0` from 0 to 0.5.
 ///
