@@ -86,7 +86,8 @@ fn main() {
         .iter()
         .map(|y| {
             let s = width(0.5 + 0.5 * y);
-            let values: Vec<f64> = roots(FIT.1).iter().map(|x| scaled_loss(s, 0.5 + 0.5 * x)).collect();
+            // Over `x`, so that the loss is 0 at the horizon to the last digit.
+            let values: Vec<f64> = roots(FIT.1).iter().map(|x| 0.5 + 0.5 * x).map(|x| scaled_loss(s, x) / x).collect();
             coefficients(&values)
         })
         .collect();
@@ -110,7 +111,7 @@ fn main() {
             c.iter().enumerate().map(|(k, c)| c * t(k)).sum::<f64>()
         };
         let row: Vec<f64> = fit.iter().map(|c| sum(c, (s - 0.01) / 0.99)).collect();
-        sum(&row, corner.x) * corner.scale
+        sum(&row, corner.x) * corner.x * corner.scale
     };
     let table_means: Vec<f64> = widths.iter().map(|&s| mean(s * s, |mu| interpolated(s, mu))).collect();
     let fit_means: Vec<f64> = widths.iter().map(|&s| mean(s * s, |mu| polynomial(s, mu))).collect();
@@ -127,7 +128,7 @@ fn main() {
     array(
         &mut out,
         "LOSS_FIT",
-        "The scaled loss as a polynomial: a row for each degree in `x`, a column for each in `√α`.",
+        "The scaled loss over `x` as a polynomial: a row for each degree in `x`, a column for each in `√α`.",
         &fit,
     );
     array(

@@ -94,7 +94,7 @@ impl<R: Real, F: Fresnel<R>, E: GgxAlbedo<R>> KullaConty<F, R, E> {
 
 /// `factor` where both directions are above the horizon, and 0 elsewhere; the lobe beside it keeps a NaN.
 #[inline(always)]
-fn above_horizon<R: Real>(l: Vec3<R>, v: Vec3<R>, factor: R) -> R {
+pub(crate) fn above_horizon<R: Real>(l: Vec3<R>, v: Vec3<R>, factor: R) -> R {
     let zero = factor.lift(0.0);
     R::select(l.z.min(v.z).gt(zero), factor, zero)
 }
@@ -212,18 +212,30 @@ impl<R: Real> FdezAguera<R> {
     /// What is added to the single reflection, in sr⁻¹.
     #[inline(always)]
     fn diffuse(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R> {
-        let one = v.z.lift(1.0);
-        let (lost, tilt) = (self.table.loss(v.z), self.table.fresnel_weight(v.z));
-        let channel = |f0: R, rho: R| {
-            let single = (one - lost) * (f0 + (one - f0) * tilt);
-            let mean = f0 + (one - f0).times(1.0 / 21.0);
-            let further = single * mean / (one - lost * mean) * lost;
-            let value = (further + rho * (one - single - further)).times(FRAC_1_PI);
-            above_horizon(l, v, value * weight)
-        };
+        let (lost, through) = (self.table.loss(v.z), self.table.through_weight(v.z));
         let (f0, rho) = (self.f0, self.rho);
-        Rgb::new(channel(f0.r, rho.r), channel(f0.g, rho.g), channel(f0.b, rho.b))
+        let rgb = Rgb::new(
+            added(f0.r, rho.r, lost, through),
+            added(f0.g, rho.g, lost, through),
+            added(f0.b, rho.b, lost, through),
+        );
+        rgb.map(
+            #[inline(always)]
+            |value| above_horizon(l, v, value * weight),
+        )
     }
+}
+
+/// `(F_ms E_ms + ρ (1 − F_ss E_ss − F_ms E_ms))/π` from `1 − A − B` and `1 − w` of Schlick's term.
+#[inline(always)]
+fn added<R: Real>(f0: R, rho: R, lost: R, through: R) -> R {
+    let one = f0.lift(1.0);
+    let single = (one - lost) * (f0 + (one - f0) * (one - through));
+    let mean = f0 + (one - f0).times(1.0 / 21.0);
+    // What is left for the base as a sum over the same denominator: the difference loses its digits where that is
+    // little.
+    let left = (one - f0) * ((one - lost) * through + lost.times(20.0 / 21.0));
+    (single * mean * lost + rho * left).times(FRAC_1_PI) / (one - lost * mean)
 }
 
 impl<R: Real> Brdf<R> for FdezAguera<R> {
@@ -251,6 +263,46 @@ impl Carry for FdezAguera<f32> {
     }
 }
 
+/// What a GGX dielectric with Schlick's term reflects and lets pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Interface<R> {
+    table: GgxTable<R>,
+    f0: R,
+}
+
+impl<R: Real> Interface<R> {
+    #[inline]
+    pub(crate) fn new(alpha: Alpha<R>, f0: R) -> Self {
+        Self { table: GgxTable::new(alpha), f0 }
+    }
+
+    /// `1 − E(μ)`, as a sum: what is lost between the facets, and what Fresnel's term lets through.
+    #[inline(always)]
+    pub(crate) fn passed(&self, mu: R) -> R {
+        let one = mu.lift(1.0);
+        let loss = self.table.loss(mu);
+        loss + (one - loss) * (one - self.f0) * self.table.through_weight(mu)
+    }
+
+    /// `2 ∫ (1 − E(μ)) μ dμ`, of what is interpolated.
+    #[inline]
+    pub(crate) fn mean_passed(&self) -> R {
+        let mut mean = self.f0.lift(0.0);
+        for (root, weight) in GAUSS_LEGENDRE_8 {
+            mean = mean + self.passed(mean.lift(root * root)).times(4.0 * weight * root * root * root);
+        }
+        mean
+    }
+}
+
+impl Carry for Interface<f32> {
+    type In<S: Real> = Interface<S>;
+    #[inline(always)]
+    fn carry<S: Real>(&self, lift: &impl Fn(f32) -> S) -> Interface<S> {
+        Interface { table: self.table.carry(lift), f0: self.f0.carry(lift) }
+    }
+}
+
 /// A diffuse base under a GGX dielectric that takes nothing it does not reflect:
 /// `f = f_single + ρ (1 − E(l)) (1 − E(v))/(π (1 − E_mean))`, with `E` the albedo of the specular lobe, Fresnel's term in it.
 ///
@@ -269,8 +321,7 @@ impl Carry for FdezAguera<f32> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoupledDiffuse<R = f32> {
     single: Microfacet<Ggx<R>, SmithCorrelated, lobe::fresnel::Schlick<R>>,
-    table: GgxTable<R>,
-    f0: R,
+    interface: Interface<R>,
     scale: Rgb<R>,
 }
 
@@ -279,14 +330,13 @@ impl<R: Real> CoupledDiffuse<R> {
     #[inline]
     pub fn new(alpha: Alpha<R>, f0: R, rho: Rgb<R>) -> Self {
         let single = Microfacet::new(Ggx::new(alpha), SmithCorrelated, lobe::fresnel::Schlick::new(Rgb::splat(f0)));
-        let mut coupled = Self { single, table: GgxTable::new(alpha), f0, scale: rho };
-        // Of what is interpolated, so that the base keeps all that it gets.
-        let mut passed = f0.lift(0.0);
-        for (root, weight) in GAUSS_LEGENDRE_8 {
-            passed = passed + coupled.passed(f0.lift(root * root)).times(4.0 * weight * root * root * root);
-        }
-        coupled.scale = rho.map(|rho| rho.times(FRAC_1_PI) / passed);
-        coupled
+        let interface = Interface::new(alpha, f0);
+        let passed = interface.mean_passed();
+        let scale = rho.map(
+            #[inline(always)]
+            |rho| rho.times(FRAC_1_PI) / passed,
+        );
+        Self { single, interface, scale }
     }
 
     /// The lobe of the single reflections.
@@ -295,16 +345,9 @@ impl<R: Real> CoupledDiffuse<R> {
         &self.single
     }
 
-    /// `1 − E(μ)` of the specular lobe.
-    #[inline(always)]
-    fn passed(&self, mu: R) -> R {
-        let one = mu.lift(1.0);
-        one - (one - self.table.loss(mu)) * (self.f0 + (one - self.f0) * self.table.fresnel_weight(mu))
-    }
-
     #[inline(always)]
     fn base(&self, l: Vec3<R>, v: Vec3<R>, weight: R) -> Rgb<R> {
-        self.scale * above_horizon(l, v, self.passed(l.z) * self.passed(v.z) * weight)
+        self.scale * above_horizon(l, v, self.interface.passed(l.z) * self.interface.passed(v.z) * weight)
     }
 }
 
@@ -326,8 +369,7 @@ impl Carry for CoupledDiffuse<f32> {
     fn carry<S: Real>(&self, lift: &impl Fn(f32) -> S) -> CoupledDiffuse<S> {
         CoupledDiffuse {
             single: self.single.carry(lift),
-            table: self.table.carry(lift),
-            f0: self.f0.carry(lift),
+            interface: self.interface.carry(lift),
             scale: self.scale.carry(lift),
         }
     }

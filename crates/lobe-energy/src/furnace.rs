@@ -42,6 +42,18 @@ pub fn masking<D: Distribution<f64>, G: Masking<f64, D>>(
 pub fn weak_white_furnace<D: Distribution<f64>, G: Masking<f64, D>>(
     distribution: &D,
     g: &G,
+    alpha: (Alpha<f64>, Alpha<f64>),
+    v: Vec3<f64>,
+) -> Albedo {
+    weak_white_furnace_to(AGREEMENT, distribution, g, alpha, v)
+}
+
+/// [`weak_white_furnace`], but the panels are halved only until two results agree to `agreement`: a distribution with
+/// corners, such as a [`Tabulated`](lobe::distribution::Tabulated), takes many.
+pub fn weak_white_furnace_to<D: Distribution<f64>, G: Masking<f64, D>>(
+    agreement: f64,
+    distribution: &D,
+    g: &G,
     (x, y): (Alpha<f64>, Alpha<f64>),
     v: Vec3<f64>,
 ) -> Albedo {
@@ -49,7 +61,7 @@ pub fn weak_white_furnace<D: Distribution<f64>, G: Masking<f64, D>>(
         return Albedo { value: Rgb::splat(0.0), error: 0.0 };
     }
     let slopes = Slopes::new((x.0, y.0), v);
-    Albedo::refined(AGREEMENT, |refinement| {
+    Albedo::refined(agreement, |refinement| {
         slopes.integral(refinement, Slopes::horizon_of_facets, |facet| {
             // Rounding may put the last point beyond the horizon.
             let visible = facet.v_dot_h.max(0.0);

@@ -30,11 +30,12 @@ pub trait GgxAlbedo<R: Real> {
 pub struct GgxTable<R = f32> {
     alpha: R,
     loss: [R; NODES],
-    weight: [R; NODES],
+    through: [R; NODES],
     mean: R,
 }
 
-/// [`GgxAlbedo`] from a polynomial of degree 10 in [`Corner::x`], whose coefficients are polynomials of degree 9 in `√α`.
+/// [`GgxAlbedo`] from [`Corner::x`] times a polynomial of degree 10 in it, whose coefficients are polynomials of degree
+/// 9 in `√α`.
 ///
 /// `E` is within 5e-4 of the integral for `α` from 1e-4 to 1 and all cosines (test `the_table_and_the_fit_are_near`).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,21 +48,23 @@ pub struct GgxFit<R = f32> {
 const NODES: usize = LOSS.len();
 const DEGREES: usize = LOSS_FIT.len();
 
-/// `max(0, 1 − |x − i|)`, what node `i` has of the linear interpolation at `x`.
+/// `max(0, 1 − |x − i|)`, what node `i` has of the linear interpolation at `x`: the lesser distance to its neighbours,
+/// which next to the first node is `x` to all digits.
 #[inline(always)]
 fn hat<R: Real>(x: R, i: usize) -> R {
-    (x.lift(1.0) - x.plus(-(i as f64)).abs()).max(x.lift(0.0))
+    let i = i as f64;
+    x.plus(1.0 - i).min(x.lift(1.0 + i) - x).max(x.lift(0.0))
 }
 
-/// The row of a table at a place from 0 to 1.
+/// The row of a table at a place from 0 to 1, of `value` of each of its numbers.
 #[inline(always)]
-fn row<R: Real>(table: &[[f64; NODES]; NODES], at: R) -> [R; NODES] {
+fn row<R: Real>(table: &[[f64; NODES]; NODES], at: R, value: impl Fn(f64) -> f64) -> [R; NODES] {
     let x = at.times((NODES - 1) as f64);
     let mut sum = [x.lift(0.0); NODES];
     for (i, row) in table.iter().enumerate() {
         let part = hat(x, i);
-        for (sum, value) in sum.iter_mut().zip(row) {
-            *sum = *sum + part.times(*value);
+        for (sum, node) in sum.iter_mut().zip(row) {
+            *sum = *sum + part.times(value(*node));
         }
     }
     sum
@@ -80,12 +83,24 @@ fn between<R: Real>(row: &[R; NODES], at: R) -> R {
 
 /// A sum of Chebyshev polynomials at `x` from 0 to 1 (Clenshaw).
 #[inline(always)]
-fn chebyshev<R: Real>(coefficients: impl DoubleEndedIterator<Item = R>, x: R) -> R {
+fn chebyshev<R: Real, const N: usize>(coefficients: &[R; N], x: R) -> R {
     let twice = x.times(4.0).plus(-2.0);
     let zero = x.lift(0.0);
-    let (last, before) = coefficients.rev().fold((zero, zero), |(last, before), c| (twice * last - before + c, last));
+    let (mut last, mut before) = (zero, zero);
+    for c in coefficients.iter().rev() {
+        (last, before) = (twice * last - before + *c, last);
+    }
     // The first polynomial after the constant has half of that argument.
     last - twice.times(0.5) * before
+}
+
+/// The constants of a row of a table, in the shape of `witness`.
+#[inline(always)]
+fn lifted<R: Real, const N: usize>(row: &[f64; N], witness: R) -> [R; N] {
+    row.map(
+        #[inline(always)]
+        |c| witness.lift(c),
+    )
 }
 
 /// Where a width is in the tables: `√α` from 0.01 to 1 as 0 to 1.
@@ -98,7 +113,7 @@ fn place<R: Real>(alpha: R) -> R {
 #[inline(always)]
 fn mean<R: Real>(polynomial: &[f64; MEANS[0].len()], alpha: R) -> R {
     let units = alpha.squared() * (alpha.lift(1.0) - alpha.ln());
-    chebyshev(polynomial.iter().map(|c| alpha.lift(*c)), place(alpha)) * units
+    chebyshev(&lifted(polynomial, alpha), place(alpha)) * units
 }
 
 impl<R: Real> GgxTable<R> {
@@ -108,7 +123,13 @@ impl<R: Real> GgxTable<R> {
     /// is within 7e-3 of the integral.
     #[inline(always)]
     pub fn fresnel_weight(&self, mu: R) -> R {
-        between(&self.weight, mu.sqrt())
+        mu.lift(1.0) - self.through_weight(mu)
+    }
+
+    /// `1 − w` of [`fresnel_weight`](Self::fresnel_weight), to all digits where it is small: at grazing light.
+    #[inline(always)]
+    pub fn through_weight(&self, mu: R) -> R {
+        between(&self.through, mu.sqrt())
     }
 }
 
@@ -116,7 +137,19 @@ impl<R: Real> GgxAlbedo<R> for GgxTable<R> {
     #[inline]
     fn new(alpha: Alpha<R>) -> Self {
         let place = place(alpha.0);
-        Self { alpha: alpha.0, loss: row(&LOSS, place), weight: row(&WEIGHT, place), mean: mean(&MEANS[0], alpha.0) }
+        let loss = row(
+            &LOSS,
+            place,
+            #[inline(always)]
+            |loss| loss,
+        );
+        let through = row(
+            &WEIGHT,
+            place,
+            #[inline(always)]
+            |weight| 1.0 - weight,
+        );
+        Self { alpha: alpha.0, loss, through, mean: mean(&MEANS[0], alpha.0) }
     }
 
     #[inline(always)]
@@ -135,15 +168,20 @@ impl<R: Real> GgxAlbedo<R> for GgxFit<R> {
     #[inline]
     fn new(alpha: Alpha<R>) -> Self {
         let place = place(alpha.0);
-        let coefficients = LOSS_FIT.map(|row| chebyshev(row.iter().map(|c| place.lift(*c)), place));
+        let coefficients = LOSS_FIT.map(
+            #[inline(always)]
+            |row| chebyshev(&lifted(&row, place), place),
+        );
         Self { alpha: alpha.0, coefficients, mean: mean(&MEANS[1], alpha.0) }
     }
 
     #[inline(always)]
     fn loss(&self, mu: R) -> R {
         let corner = Corner::new(self.alpha, mu);
-        // At the horizon, where nothing is lost, the polynomial ends a little below 0.
-        chebyshev(self.coefficients.iter().copied(), corner.x).max(mu.lift(0.0)) * corner.scale
+        // With the factor `x` nothing is lost at the horizon, and near it the loss keeps its digits. There the
+        // polynomial ends a little below 0 for some widths, and without the bound a lobe of black facets would be
+        // negative.
+        chebyshev(&self.coefficients, corner.x).max(mu.lift(0.0)) * corner.x * corner.scale
     }
 
     #[inline(always)]
@@ -159,7 +197,7 @@ impl Carry for GgxTable<f32> {
         GgxTable {
             alpha: self.alpha.carry(lift),
             loss: self.loss.carry(lift),
-            weight: self.weight.carry(lift),
+            through: self.through.carry(lift),
             mean: self.mean.carry(lift),
         }
     }

@@ -30,6 +30,7 @@
 //! | the same, cheaper | [`Turquin`] | no | 1.2e-3 |
 //! | Schlick's term over a diffuse base | [`FdezAguera`] | no | 7e-3 |
 //! | a dielectric over a diffuse base | [`CoupledDiffuse`] | to the last bit | 7e-3 |
+//! | a dielectric over any base | [`AlbedoCoat`] | to the last bit | see there |
 //! | as engines do it | [`engines`] | no | see there |
 
 #![no_std]
@@ -38,6 +39,7 @@
 mod albedo;
 #[allow(clippy::approx_constant, reason = "the loss of the roughest along its normal is ln 2")]
 mod baked;
+mod coat;
 mod compensation;
 mod corner;
 pub mod engines;
@@ -47,8 +49,9 @@ mod half_vector;
 mod quadrature;
 
 pub use albedo::{Albedo, Exchanged, directional_albedo, directional_albedo_to};
+pub use coat::{AlbedoCoat, Even, Least, Share};
 pub use compensation::{CoupledDiffuse, FdezAguera, KullaConty, Turquin, average_fresnel};
 pub use corner::Corner;
-pub use furnace::{masking, weak_white_furnace};
+pub use furnace::{masking, weak_white_furnace, weak_white_furnace_to};
 pub use ggx::{GgxAlbedo, GgxFit, GgxTable};
 pub use half_vector::{average_albedo, microfacet_albedo, microfacet_albedo_to};

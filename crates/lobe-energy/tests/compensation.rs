@@ -6,7 +6,8 @@ use lobe::masking::SmithCorrelated;
 use lobe::{Alpha, Brdf, Carry, Ior, Microfacet, Rgb, Vec3};
 use lobe_energy::engines::{Brightened, Compensation, KarisMobile, MaterialX, SplitSum, Tabulated};
 use lobe_energy::{
-    CoupledDiffuse, FdezAguera, GgxAlbedo, GgxFit, GgxTable, KullaConty, Turquin, average_fresnel, microfacet_albedo_to,
+    AlbedoCoat, CoupledDiffuse, Even, FdezAguera, GgxAlbedo, GgxFit, GgxTable, KullaConty, Least, Turquin,
+    average_fresnel, microfacet_albedo_to,
 };
 
 /// Between the nodes of the tables and on them, to the ends of the domain.
@@ -121,18 +122,60 @@ fn the_mean_of_fresnel() {
 #[test]
 fn a_white_base_makes_a_white_whole() {
     let (mut coupled, mut fdez) = (0.0_f64, 0.0_f64);
-    for (alpha, mu) in cases().filter(|(_, mu)| *mu > 1e-3) {
-        for f0 in [0.04, 0.17] {
-            let error = |lobe: &dyn Brdf<f64>| (albedo(lobe, alpha, mu).g - 1.0).abs();
-            coupled = coupled.max(error(&CoupledDiffuse::new(Alpha(alpha), f0, Rgb::splat(1.0))));
-            fdez = fdez.max(error(&FdezAguera::new(Alpha(alpha), Rgb::splat(f0), Rgb::splat(1.0))));
-        }
+    // The tables are the slowest lobes there are: the ends and the middle, each channel another F0.
+    let widths = [1e-4, 1e-3, 0.04, 0.4, 1.0];
+    for (alpha, mu) in widths.into_iter().flat_map(|alpha| [3e-3, 0.03, 0.4, 1.0].map(|mu| (alpha, mu))) {
+        let error = |lobe: &dyn Brdf<f64>| {
+            let albedo = albedo(lobe, alpha, mu);
+            (albedo.r - 1.0).abs().max((albedo.g - 1.0).abs())
+        };
+        let f0 = if mu < 0.1 { 0.04 } else { 0.17 };
+        coupled = coupled.max(error(&CoupledDiffuse::new(Alpha(alpha), f0, Rgb::splat(1.0))));
+        fdez = fdez.max(error(&FdezAguera::new(Alpha(alpha), Rgb::new(0.04, 0.17, 1.0), Rgb::splat(1.0))));
     }
     println!("coupled {coupled:e}, Fdez-Agüera {fdez:e}");
     assert!(coupled < 7e-3 && fdez < 7e-3, "{coupled:e} {fdez:e}");
     // The usual sum of both gains what the specular lobe reflects.
     let plain = lobe::Lambert::new(Rgb::splat(1.0)) + single(0.3, Rgb::splat(0.04));
     assert!(albedo(&plain, 0.3, 0.1).g > 1.1);
+}
+
+/// The table in the documentation of `AlbedoCoat`: the least and the largest albedo of a coat over a white base.
+#[test]
+fn coats_over_white_bases() {
+    let white = Rgb::splat(1.0_f64);
+    let metal: KullaConty<_, f64> = KullaConty::new(Alpha(0.3), Schlick::new(white));
+    let matte = lobe::Lambert::new(white);
+    let mut rows = [(f64::INFINITY, 0.0_f64); 6];
+    for (alpha, f0) in [(0.01, 0.17), (0.1, 0.04), (0.3, 0.17), (1.0, 0.04), (1.0, 0.17)] {
+        for mu in [0.03, 0.6, 1.0] {
+            let (width, term) = (Alpha(alpha), Schlick::new(Rgb::splat(f0)));
+            let top = Microfacet::new(Ggx::new(width), SmithCorrelated, term);
+            let lobes: [&dyn Brdf<f64>; 6] = [
+                &AlbedoCoat::<_, Even, f64>::new(width, f0, matte),
+                &AlbedoCoat::<_, Least, f64>::new(width, f0, matte),
+                &lobe::Coat::new(top, term, matte),
+                &AlbedoCoat::<_, Even, f64>::new(width, f0, metal),
+                &AlbedoCoat::<_, Least, f64>::new(width, f0, metal),
+                &lobe::Coat::new(top, term, metal),
+            ];
+            for (row, lobe) in rows.iter_mut().zip(lobes) {
+                let albedo = albedo(lobe, alpha, mu).g;
+                *row = (row.0.min(albedo), row.1.max(albedo));
+            }
+        }
+    }
+    println!("Lambert: even, least, coat; metal: the same: {rows:.3?}");
+    let [even, least, coat, even_metal, least_metal, coat_metal] = rows;
+    // One is CoupledDiffuse.
+    let (l, v) = (at(0.3), at(0.8));
+    let same = CoupledDiffuse::new(Alpha(0.3), 0.04, white).eval(l, v).g;
+    let one = AlbedoCoat::<_, Even, f64>::new(Alpha(0.3), 0.04, matte).eval(l, v).g;
+    assert!((one / same - 1.0).abs() < 1e-12);
+    let within = |(low, high): (f64, f64), least: f64, most: f64| low > least && high < most;
+    assert!(within(even, 0.997, 1.004) && within(even_metal, 0.97, 1.025), "{even:?} {even_metal:?}");
+    assert!(within(least, 0.95, 1.004) && within(least_metal, 0.95, 1.004), "{least:?} {least_metal:?}");
+    assert!(within(coat, 0.19, 0.95) && within(coat_metal, 0.18, 0.95), "{coat:?} {coat_metal:?}");
 }
 
 /// In `f32` as in `f64`, the same both ways to the last bit, black below the horizon, NaN for NaN.
@@ -147,14 +190,18 @@ fn the_lobes_keep_what_lobes_promise() {
         let bright: Turquin<_> = Turquin::new(Alpha(alpha), gold);
         let both = FdezAguera::new(Alpha(alpha), Rgb::splat(0.04), Rgb::splat(0.5_f32));
         let base = CoupledDiffuse::new(Alpha(alpha), 0.04, Rgb::splat(0.5_f32));
+        let coat: AlbedoCoat<_> = AlbedoCoat::new(Alpha(alpha), 0.04, metal);
+        let even: AlbedoCoat<_, Even> = AlbedoCoat::new(Alpha(alpha), 0.04, metal);
         for l in directions.map(single) {
             for v in directions.map(single) {
                 assert_eq!(metal.eval(l, v), metal.eval(v, l));
                 assert_eq!(base.eval(l, v), base.eval(v, l));
+                assert_eq!(coat.eval(l, v), coat.eval(v, l));
+                assert_eq!(even.eval(l, v), even.eval(v, l));
                 let exact = wide.eval_cos(l.map(f64::from), v.map(f64::from)).g;
                 let found = f64::from(metal.eval_cos(l, v).g);
                 assert!((found - exact).abs() <= 2e-5 * exact + 1e-30, "{alpha} {l:?} {v:?}: {found} {exact}");
-                for lobe in [&metal as &dyn Brdf<f32>, &bright, &both, &base] {
+                for lobe in [&metal as &dyn Brdf<f32>, &bright, &both, &base, &coat, &even] {
                     let f = lobe.eval(l, v);
                     assert!(f.g >= 0.0 && f.g.is_finite(), "{alpha} {l:?} {v:?} {f:?}");
                     let below = Vec3::new(l.x, l.y, -l.z);
@@ -164,6 +211,52 @@ fn the_lobes_keep_what_lobes_promise() {
                     assert!(lobe.eval(broken, v).b.is_nan() && lobe.eval(v, broken).b.is_nan());
                 }
             }
+        }
+    }
+}
+
+/// In `f32` as in `f64`, to the last cosine: the table to all digits, the polynomial to those of its terms.
+#[test]
+fn losses_keep_their_digits_at_the_horizon() {
+    for alpha in WIDTHS.map(|alpha| alpha as f32) {
+        let (table, fit): (GgxTable, GgxFit) = (GgxTable::new(Alpha(alpha)), GgxFit::new(Alpha(alpha)));
+        let (exact, polynomial) = (GgxTable::new(Alpha(f64::from(alpha))), GgxFit::new(Alpha(f64::from(alpha))));
+        for mu in [f32::MIN_POSITIVE, 1e-30, 1e-20, 1e-8, 1e-4, 0.01, 0.3, 1.0] {
+            let wide = f64::from(mu);
+            let (found, loss) = (f64::from(table.loss(mu)), exact.loss(wide));
+            assert!((found - loss).abs() <= 1e-5 * loss, "{alpha} {mu}: {found:e} {loss:e}");
+            let (found, through) = (f64::from(table.through_weight(mu)), exact.through_weight(wide));
+            // At 1 the weight of rough facets is 0.05 and that of sharp ones 0.
+            assert!((found - through).abs() <= 1e-5 * through, "{alpha} {mu}: {found:e} {through:e}");
+            let corner = lobe_energy::Corner::new(f64::from(alpha), wide);
+            let error = (f64::from(fit.loss(mu)) - polynomial.loss(wide)).abs();
+            assert!(error <= 5e-7 * corner.x * corner.scale, "{alpha} {mu}: {error:e}");
+            assert!(fit.loss(mu) >= 0.0);
+        }
+    }
+}
+
+/// What the polynomial's bound and the sum for the base are for: without the one this is negative, without the other
+/// noise.
+#[test]
+fn little_is_not_lost() {
+    let at = |mu: f32| Vec3::new((1.0 - mu * mu).sqrt(), 0.0, mu);
+    // Of a term that is 0 along the half vector nothing but further reflections is left.
+    let black = Schlick::with_f90(Rgb::splat(0.0), Rgb::splat(1.0_f32));
+    for alpha in (1..1000).map(|i| i as f32 / 1000.0) {
+        let metal: KullaConty<_> = KullaConty::new(Alpha(alpha), black);
+        for mu in [1e-12, 1e-8, 1e-4, 0.1] {
+            let f = metal.eval(at(0.08), at(mu)).g;
+            assert!(f >= 0.0, "{alpha} {mu}: {f:e}");
+        }
+    }
+    // A base under a mirror, far from the mirror direction.
+    for alpha in (100..400).map(|i| i as f32 * 1e-6) {
+        let mirror = FdezAguera::new(Alpha(alpha), Rgb::splat(1.0), Rgb::splat(1.0));
+        for mu in [0.2, 0.3, 0.5, 0.7] {
+            let f = f64::from(mirror.eval(at(mu), at(mu)).g);
+            let exact = mirror.carry(&f64::from).eval(at(mu).map(f64::from), at(mu).map(f64::from)).g;
+            assert!((f - exact).abs() <= 2e-5 * exact, "{alpha} {mu}: {f:e} {exact:e}");
         }
     }
 }

@@ -215,8 +215,8 @@ where
 
 /// The same for a lobe whose lanes would be too much code: point by point, as the scalar `f32` in every precision.
 ///
-/// Those are the lobes with a [`SmithTable`](lobe::distribution::SmithTable), which lanes add up node by node: with
-/// them the crate takes a compiler two minutes more.
+/// Those are the lobes with a [`SmithTable`](lobe::distribution::SmithTable) or a [`GgxTable`](lobe_energy::GgxTable),
+/// which lanes add up node by node: with the former the crate takes a compiler two minutes more.
 pub(crate) fn pointwise(lobe: impl Brdf<f32> + Send + Sync + 'static) -> AnyBatch {
     pointwise_any(crate::number::boxed(lobe))
 }

@@ -218,7 +218,8 @@ impl Lobe {
     ///
     /// Every model runs in lanes, those of layers too, but for those whose `Λ` is a table, which go point by point as the
     /// scalar `f32`, whatever the precision: `tabulated-facets`, `ashikhmin-premoze-shirley` with `blinn` or `gtr`, and
-    /// `microfacet` with another distribution than GGX or Beckmann.
+    /// `microfacet` with another distribution than GGX or Beckmann; and those whose albedo is one: `fdez-aguera`,
+    /// `coupled-diffuse` and `albedo-coat`.
     ///
     /// A `microfacet` lobe of GGX or Beckmann with Smith's masking and Schlick's, a conductor's or a dielectric's Fresnel
     /// term has kernels of its own; any other looks up its masking and its Fresnel term for each register.

@@ -1,10 +1,11 @@
 //! The scene's materials: what they are made of, and how much light they reflect.
 
 use super::furnace::{self, Curve};
-use lobe::{Brdf, Rgb, Vec3};
-use lobe_energy::{Albedo, Exchanged, directional_albedo_to};
+use lobe::{Alpha, Brdf, Rgb, Vec3};
+use lobe_energy::{Albedo, Exchanged, directional_albedo_to, microfacet_albedo_to};
+use lobe_models::{Lobe, Value};
 use lobe_scene::image::Display;
-use lobe_scene::{LobeRecord, Material, Renderer, Scene, Settings, View, procedural};
+use lobe_scene::{LobeRecord, Material, Renderer, Scene, Settings, Surface, View, procedural};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -239,7 +240,10 @@ fn one(shown: &Shown<'_>) -> MaterialFacts {
         albedo: seen.iter().take(SHOWN.len()).copied().collect(),
         highest: known.then_some(highest.1),
         gains_energy,
-        verdict: verdict(known, &highest, gains_energy, &lobes),
+        verdict: match lost(material, seen.first()) {
+            Some(remedy) if known && !gains_energy => verdict(known, &highest, gains_energy, &lobes) + &remedy,
+            _ => verdict(known, &highest, gains_energy, &lobes),
+        },
         reasons: material.reasons(),
         ball: ball(material),
         furnace: furnace::picture(&curve),
@@ -290,4 +294,121 @@ fn verdict(known: bool, (place, highest): &(String, f64), gains_energy: bool, lo
         (false, false) => text += ", so that Kd + Ks is at most 1",
     }
     text
+}
+
+/// The part of the light that a metal loses between its facets, straight on, from which on a remedy is named.
+const WORTH_A_WORD: f64 = 0.01;
+
+/// What a rough metal loses between its facets and what would give it back, in words; `seen` is the albedo straight on.
+fn lost(material: &Material, seen: Option<&[f64; 3]>) -> Option<String> {
+    let lobes = match &material.surface {
+        Surface::Lobes(named) => named.material().lobes.clone(),
+        Surface::Gltf(gltf) => gltf.lobes(),
+        _ => return None,
+    };
+    let straight_on = Vec3::new(0.0, 0.0, 1.0);
+    let mut gain = [0.0; 3];
+    let mut replaced = Vec::new();
+    for lobe in &lobes {
+        let Some((alpha, better)) = compensated(lobe) else { continue };
+        let albedo = |lobe: &Lobe| {
+            let width = (Alpha(alpha), Alpha(alpha));
+            microfacet_albedo_to(QUADRATURE_ERROR, &*lobe.build::<f64>(), width, straight_on)
+        };
+        let (once, all) = (albedo(lobe), albedo(&better));
+        let (once, all) = (<[f64; 3]>::from(once.value), <[f64; 3]>::from(all.value));
+        for (gain, (all, once)) in gain.iter_mut().zip(all.into_iter().zip(once)) {
+            *gain += all - once;
+        }
+        if !replaced.contains(&lobe.model().name) {
+            replaced.push(lobe.model().name);
+        }
+    }
+    // Of the channels that which gains most: what a colour loses, it loses where it is bright.
+    let (seen, gain) =
+        seen?.iter().zip(gain).fold((0.0, 0.0), |most, (seen, gain)| if gain > most.1 { (*seen, gain) } else { most });
+    (gain >= WORTH_A_WORD).then(|| {
+        format!(
+            ". Straight on it reflects {:.1} %, and loses light between its facets: with `kulla-conty` in the place of \
+             `{}`, which gives further reflections back, it would be {:.1} %",
+            seen * 100.0,
+            replaced.join("` and `"),
+            (seen + gain) * 100.0
+        )
+    })
+}
+
+/// The width of a lobe that is a metal's GGX and reflects once, and the same with its further reflections.
+fn compensated(lobe: &Lobe) -> Option<(f64, Lobe)> {
+    const METAL: f64 = 0.2;
+    let number = |name: &str| match lobe.value(name) {
+        Some(Value::Number(x)) => Some(x),
+        _ => None,
+    };
+    let is_bright = |name: &str| matches!(lobe.value(name), Some(Value::Colour(c)) if c.iter().any(|c| *c >= METAL));
+    let (alpha, given): (f64, Vec<(&str, Value)>) = match lobe.model().name {
+        "microfacet" => {
+            let word = |name: &str| match lobe.value(name) {
+                Some(Value::Choice(word)) => word,
+                _ => "",
+            };
+            let Some(Value::Widths([x, y])) = lobe.value("alpha") else { return None };
+            let metal = match word("fresnel") {
+                "schlick" => is_bright("f0"),
+                form => form == "conductor",
+            };
+            if x != y || !metal || word("distribution") != "ggx" || word("masking") != "smith-correlated" {
+                return None;
+            }
+            let terms = ["fresnel", "f0", "f90", "metal", "eta", "k"];
+            (x, terms.into_iter().filter_map(|name| Some((name, lobe.value(name)?))).collect())
+        }
+        "gltf" if number("metallic") == Some(1.0) && number("anisotropy") == Some(0.0) && is_bright("base-color") => {
+            (number("roughness")?.powi(2), vec![("f0", lobe.value("base-color")?)])
+        }
+        _ => return None,
+    };
+    let given: Vec<_> = given.into_iter().chain([("alpha", Value::Number(alpha))]).collect();
+    let better = Lobe::new(lobe_models::model("kulla-conty")?, &given).ok()?;
+    Some((alpha, better.with_weight(lobe.weight()).ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(lobes: &str) -> String {
+        let lobes = lobe_models::Material::from_json(&format!("{{\"lobes\": [{lobes}]}}")).expect("a material");
+        let material = Material::from_lobes("m", &lobes);
+        one(&Shown { material, lobes: Some(&lobes), views: Vec::new() }).verdict
+    }
+
+    /// The roughest white mirror reflects 1 − ln 2 of the light once, and all of it in the end.
+    #[test]
+    fn a_rough_metal_is_told_what_it_loses() {
+        let white = told(r#"{"model": "microfacet", "alpha": 1, "f0": 1}"#);
+        let expected = "Straight on it reflects 30.7 %, and loses light between its facets: with `kulla-conty` in the \
+                        place of `microfacet`, which gives further reflections back, it would be 100.0 %";
+        assert!(white.ends_with(expected), "{white}");
+        let gltf = told(r#"{"model": "gltf", "base-color": [1, 1, 1], "metallic": 1, "roughness": 1}"#);
+        assert!(gltf.ends_with(&expected.replace("microfacet", "gltf")), "{gltf}");
+        let half = told(r#"{"model": "microfacet", "alpha": 1, "f0": 1, "weight": 0.5}"#);
+        assert!(half.contains("reflects 15.3 %") && half.ends_with("50.0 %"), "{half}");
+        let gold = told(r#"{"model": "microfacet", "alpha": 0.6, "fresnel": "conductor", "metal": "gold"}"#);
+        assert!(gold.contains("kulla-conty"), "{gold}");
+    }
+
+    #[test]
+    fn what_loses_little_is_told_nothing() {
+        for lobe in [
+            r#"{"model": "microfacet", "alpha": 0.05, "f0": 1}"#,
+            r#"{"model": "microfacet", "alpha": 1, "f0": 0.04}"#,
+            r#"{"model": "kulla-conty", "alpha": 1, "f0": 1}"#,
+            r#"{"model": "gltf", "base-color": [1, 1, 1], "metallic": 0, "roughness": 1}"#,
+            r#"{"model": "lambert", "albedo": 0.5}"#,
+        ] {
+            let verdict = told(lobe);
+            assert!(!verdict.contains("in the place of"), "{lobe}: {verdict}");
+        }
+    }
 }

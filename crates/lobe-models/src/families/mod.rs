@@ -1,6 +1,7 @@
 //! The models, a file a family.
 
 mod classic;
+mod compensated;
 mod diffuse;
 mod empirical;
 mod fresnel;
@@ -14,28 +15,21 @@ use crate::catalogue::Model;
 ///
 /// Statics, and no constants: the value of a constant is made anew in every crate that names it, and all constructors and
 /// kernels behind these pointers would be compiled once more there.
-pub(crate) static ALL: [&[Model]; 6] =
-    [classic::MODELS, diffuse::MODELS, empirical::MODELS, layered::MODELS, microfacet::MODELS, physical::MODELS];
+pub(crate) static ALL: [&[Model]; 7] = [
+    classic::MODELS,
+    compensated::MODELS,
+    diffuse::MODELS,
+    empirical::MODELS,
+    layered::MODELS,
+    microfacet::MODELS,
+    physical::MODELS,
+];
 
 /// A constructor in each number type, and that of the batch, from one text: a generic function and one of `f32`, in a
 /// module of the name that is given, where the last calls of the text are to what `finish` names.
 macro_rules! constructor {
     ($name:ident |$reader:ident, $finish:ident| $body:expr) => {
-        mod $name {
-            #[allow(unused_imports, reason = "each constructor uses some of them")]
-            use super::*;
-            pub(super) fn brdf<R: crate::Number>($reader: &crate::Reader<'_, R>) -> crate::number::Built<R> {
-                use crate::number::boxed as $finish;
-                $body
-            }
-            #[cfg(feature = "batch")]
-            pub(super) fn batch($reader: &crate::Reader<'_, f32>) -> crate::AnyBatch {
-                #[allow(dead_code, reason = "not every constructor names its number type")]
-                type R = f32;
-                use crate::batch::batched as $finish;
-                $body
-            }
-        }
+        crate::families::constructor! { batched: $name |$reader, $finish| $body }
     };
     // One that gives a lobe with its terms. The batch of what ends with `table` goes point by point.
     (facets: $name:ident |$reader:ident, $finish:ident, $table:ident| $body:expr) => {
@@ -53,6 +47,24 @@ macro_rules! constructor {
                 type R = f32;
                 #[allow(unused_imports, reason = "most have no table, and one has nothing else")]
                 use crate::batch::{batched as $finish, pointwise as $table};
+                $body
+            }
+        }
+    };
+    // One whose batch ends with another function of `crate::batch`.
+    ($batched:ident: $name:ident |$reader:ident, $finish:ident| $body:expr) => {
+        mod $name {
+            #[allow(unused_imports, reason = "each constructor uses some of them")]
+            use super::*;
+            pub(super) fn brdf<R: crate::Number>($reader: &crate::Reader<'_, R>) -> crate::number::Built<R> {
+                use crate::number::boxed as $finish;
+                $body
+            }
+            #[cfg(feature = "batch")]
+            pub(super) fn batch($reader: &crate::Reader<'_, f32>) -> crate::AnyBatch {
+                #[allow(dead_code, reason = "not every constructor names its number type")]
+                type R = f32;
+                use crate::batch::$batched as $finish;
                 $body
             }
         }
