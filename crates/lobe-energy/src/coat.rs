@@ -88,23 +88,35 @@ impl<B, S: Share<R>, R: Real> AlbedoCoat<B, S, R> {
         Self { top, interface, mean: interface.mean_passed(), base, share: PhantomData }
     }
 
+    /// The lobe of the coat.
     #[inline(always)]
-    fn shown(&self, base: Rgb<R>, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        let share = S::share(self.interface.passed(l.z), self.interface.passed(v.z), self.mean);
+    pub fn top(&self) -> &Microfacet<Ggx<R>, SmithCorrelated, Schlick<R>> {
+        &self.top
+    }
+
+    /// The base.
+    #[inline(always)]
+    pub fn base(&self) -> &B {
+        &self.base
+    }
+
+    /// The factor of the base, `share(l, v)`; 0 below the horizon.
+    #[inline(always)]
+    pub fn transmitted(&self, l: Vec3<R>, v: Vec3<R>) -> R {
         // Below the horizon the base is 0, and an albedo that is not a number there must not spoil it.
-        base * above_horizon(l, v, share)
+        above_horizon(l, v, S::share(self.interface.passed(l.z), self.interface.passed(v.z), self.mean))
     }
 }
 
 impl<B: Brdf<R>, S: Share<R>, R: Real> Brdf<R> for AlbedoCoat<B, S, R> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        self.top.eval(l, v) + self.shown(self.base.eval(l, v), l, v)
+        self.top.eval(l, v) + self.base.eval(l, v) * self.transmitted(l, v)
     }
 
     #[inline(always)]
     fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        self.top.eval_cos(l, v) + self.shown(self.base.eval_cos(l, v), l, v)
+        self.top.eval_cos(l, v) + self.base.eval_cos(l, v) * self.transmitted(l, v)
     }
 }
 

@@ -7,6 +7,7 @@ use crate::function::Function;
 use crate::number::{AnyBrdf, Built, Number};
 use crate::parameter::{Error, Parameter, Value};
 use crate::reader::Reader;
+use crate::sampler::AnySampler;
 use crate::terms::AnyTerms;
 use lobe::{Brdf, Half, Rgb, Vec3};
 use std::fmt;
@@ -56,6 +57,8 @@ pub(crate) struct Constructors {
     pub(crate) f32: fn(&Reader<'_, f32>) -> Built<f32>,
     pub(crate) f64: fn(&Reader<'_, f64>) -> Built<f64>,
     pub(crate) half: fn(&Reader<'_, Half>) -> Built<Half>,
+    pub(crate) sampler_f32: fn(&Reader<'_, f32>) -> AnySampler<f32>,
+    pub(crate) sampler_f64: fn(&Reader<'_, f64>) -> AnySampler<f64>,
     #[cfg(feature = "batch")]
     pub(crate) batch: fn(&Reader<'_, f32>) -> AnyBatch,
     /// Of the models that are made of `D`, `G` and `F`.
@@ -167,6 +170,11 @@ impl Lobe {
     pub fn with_weight(self, weight: [f64; 3]) -> Result<Self, Error> {
         Parameter::reflectance("weight", "").check_weighted(Value::Colour(weight))?;
         Ok(Self { weight, ..self })
+    }
+
+    /// `f` of the model and its parameters.
+    pub(crate) fn with_reader<R: Number, T>(&self, f: impl FnOnce(&Model, &Reader<'_, R>) -> T) -> T {
+        f(self.model, &Reader::new(self.model.parameters, &self.values))
     }
 
     /// What the whole lobe is multiplied with: 1 if nothing else was said.

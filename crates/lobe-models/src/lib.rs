@@ -30,6 +30,8 @@
 //! With the feature `batch` a lobe or a material also runs over slices, at the SIMD level and to the precision that are
 //! picked at run time: [`Lobe::batch`], [`Material::batch`]. It needs Rust 1.89.
 //!
+//! [`Lobe::sampler`] and [`Material::sampler`] draw directions of light from the lobes, with `lobe-sampling`.
+//!
 //! A model is added in one place, its file under `families/`: the command reads it, the property suite and the sweep
 //! of the extremes run over it.
 
@@ -47,6 +49,7 @@ mod number;
 mod parameter;
 mod presets;
 mod reader;
+mod sampler;
 mod terms;
 
 #[cfg(feature = "batch")]
@@ -60,4 +63,5 @@ pub use number::{AnyBrdf, Number};
 pub use parameter::{Error, Kind, Parameter, TABLE, Value};
 pub use presets::{PRESETS, preset};
 pub use reader::Reader;
+pub use sampler::{AnySampler, SampleNumber};
 pub use terms::{AnyTerms, Terms};

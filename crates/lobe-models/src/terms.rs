@@ -2,10 +2,12 @@
 
 use crate::function::Function;
 use crate::number::{AnyBrdf, Built, Number};
+use crate::sampler::AnySampler;
 use lobe::distribution::Distribution;
 use lobe::fresnel::{Fresnel, Incidence};
 use lobe::masking::Masking;
 use lobe::{Brdf, Microfacet, Rgb, Vec3};
+use lobe_sampling::Sample;
 
 /// The terms of a microfacet lobe in `f64`.
 pub type AnyTerms = Box<dyn Terms<f64>>;
@@ -33,6 +35,8 @@ pub trait Terms<R: Number>: Send + Sync {
     fn f(&self, cos: R) -> Rgb<R>;
     /// The lobe that they make together.
     fn into_brdf(self: Box<Self>) -> AnyBrdf<R>;
+    /// The sampler of that lobe.
+    fn into_sampler(self: Box<Self>) -> AnySampler<R>;
     /// The function that evaluates that lobe.
     fn function(&self) -> Function;
 }
@@ -43,7 +47,7 @@ where
     D: Distribution<R>,
     G: Masking<R, D>,
     F: Fresnel<R>,
-    Self: Brdf<R> + Send + Sync + 'static,
+    Self: Brdf<R> + Sample<R> + Send + Sync + 'static,
 {
     fn d(&self, h: Vec3<R>) -> R {
         self.distribution().d(h)
@@ -62,6 +66,10 @@ where
     }
 
     fn into_brdf(self: Box<Self>) -> AnyBrdf<R> {
+        self
+    }
+
+    fn into_sampler(self: Box<Self>) -> AnySampler<R> {
         self
     }
 

@@ -10,7 +10,7 @@ use crate::{Sample, Sampled};
 use lobe::fresnel::Fresnel;
 use lobe::masking::SmithSeparable;
 use lobe::{Brdf, Clearcoat, Coat, Real, Rgb, SheenLayer, Vec3};
-use lobe_energy::{CoupledDiffuse, FdezAguera, GgxAlbedo, KullaConty, Turquin};
+use lobe_energy::{AlbedoCoat, CoupledDiffuse, FdezAguera, GgxAlbedo, KullaConty, Share, Turquin};
 
 /// The probability of the first part, and the value and the density of the whole, for a lobe of two parts.
 trait Layers<R: Real> {
@@ -171,6 +171,38 @@ impl<R: Real, B: Sample<R>> Layers<R> for SheenLayer<B, R> {
 sample_layers! {
     /// The sheen, by the cosine, or the base is drawn.
     [R: Real, B] SheenLayer<B, R>, [B: Sample<R>]
+}
+
+impl<R: Real, B: Sample<R>, S: Share<R>> Layers<R> for AlbedoCoat<B, S, R> {
+    #[inline(always)]
+    fn guesses(&self, v: Vec3<R>) -> (R, R) {
+        let v = Vec3::new(v.x, v.y, incidence_of(v).cos);
+        let top = AlbedoCoat::top(self).albedo_guess(v);
+        (top, AlbedoCoat::base(self).albedo_guess(v) * (top.lift(1.0) - top).max(top.lift(0.0)))
+    }
+    #[inline(always)]
+    fn top(&self, v: Vec3<R>, u: [R; 3]) -> Part<R> {
+        Part::whole(AlbedoCoat::top(self).sample(v, u))
+    }
+    #[inline(always)]
+    fn base(&self, v: Vec3<R>, u: [R; 3]) -> Part<R> {
+        Part::of(
+            AlbedoCoat::base(self).sample(v, u),
+            #[inline(always)]
+            |l| Rgb::splat(self.transmitted(l, v)),
+        )
+    }
+    #[inline(always)]
+    fn value_and_pdfs(&self, l: Vec3<R>, v: Vec3<R>) -> (Rgb<R>, (R, R)) {
+        let (coat, coat_pdf) = AlbedoCoat::top(self).eval_cos_pdf(l, v);
+        let (base, base_pdf) = AlbedoCoat::base(self).eval_cos_pdf(l, v);
+        (coat + base * self.transmitted(l, v), (coat_pdf, base_pdf))
+    }
+}
+
+sample_layers! {
+    /// The coat or the base is drawn.
+    [R: Real, B, S] AlbedoCoat<B, S, R>, [B: Sample<R>, S: Share<R>]
 }
 
 /// A GGX and something wide beside it, whose own value says how both add up.

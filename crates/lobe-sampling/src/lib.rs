@@ -24,7 +24,7 @@
 //! |---|---|
 //! | [`Microfacet`](lobe::Microfacet), [`CookTorrance`](lobe::CookTorrance), [`Blinn1977`](lobe::Blinn1977) | facets: visible ones for GGX and Beckmann, [`facets`] has the methods; [`by`](SampleBy::by) selects one |
 //! | [`MetallicRoughness`](lobe::MetallicRoughness) | facets, or the cosine |
-//! | [`Sum`](lobe::Sum), [`Coat`](lobe::Coat), [`Clearcoat`](lobe::Clearcoat) | one of their parts, with the density of the whole |
+//! | [`Sum`](lobe::Sum), [`Coat`](lobe::Coat), [`Clearcoat`](lobe::Clearcoat), [`AlbedoCoat`](lobe_energy::AlbedoCoat) | one of their parts, with the density of the whole |
 //! | [`SheenLayer`](lobe::SheenLayer), [`KullaConty`](lobe_energy::KullaConty), [`FdezAguera`](lobe_energy::FdezAguera), [`CoupledDiffuse`](lobe_energy::CoupledDiffuse) | a part, or the cosine |
 //! | [`Turquin`](lobe_energy::Turquin) | facets |
 //! | [`Phong`](lobe::Phong), [`BlinnPhong`](lobe::BlinnPhong), [`AshikhminShirley`](lobe::AshikhminShirley), the lecture's highlights | their power of a cosine, around the mirror direction or the normal of the facet |

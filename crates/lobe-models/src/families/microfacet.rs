@@ -13,6 +13,7 @@ use lobe::masking::{
     Hammon, Implicit, Kelemen, Neumann, RationalBeckmann, SchlickGgx, SmithCorrelated, SmithSeparable, VCavity,
 };
 use lobe::{Alpha, Microfacet, Vec3};
+use lobe_sampling::facets::SampleNormals;
 
 /// The distribution by name.
 const DISTRIBUTION: Parameter = Parameter::choice(
@@ -126,7 +127,11 @@ mod any {
 }
 
 /// The model with a distribution whose `Λ` has a closed form.
-fn closed<R: Number, D: SmithLambda<R> + Send + Sync + 'static>(p: &Reader<'_, R>, d: D) -> Box<dyn Terms<R>> {
+fn closed<R, D>(p: &Reader<'_, R>, d: D) -> Box<dyn Terms<R>>
+where
+    R: Number,
+    D: SmithLambda<R> + SampleNormals<R> + Send + Sync + 'static,
+{
     Box::new(Microfacet::new(d, any_smith(p), any_fresnel(p)))
 }
 
@@ -134,7 +139,7 @@ fn closed<R: Number, D: SmithLambda<R> + Send + Sync + 'static>(p: &Reader<'_, R
 fn tabulated<R, D, I>(p: &Reader<'_, R>, d: D, isotropic: impl Fn() -> I) -> Box<dyn Terms<R>>
 where
     R: Number,
-    D: Distribution<R> + Send + Sync + 'static,
+    D: SampleNormals<R> + Send + Sync + 'static,
     I: Distribution<R>,
 {
     match any_smith(p) {

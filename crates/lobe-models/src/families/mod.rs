@@ -60,6 +60,10 @@ macro_rules! constructor {
                 use crate::number::boxed as $finish;
                 $body
             }
+            pub(super) fn sampler<R: crate::Number>($reader: &crate::Reader<'_, R>) -> crate::AnySampler<R> {
+                use crate::sampler::boxed as $finish;
+                $body
+            }
             #[cfg(feature = "batch")]
             pub(super) fn batch($reader: &crate::Reader<'_, f32>) -> crate::AnyBatch {
                 #[allow(dead_code, reason = "not every constructor names its number type")]
@@ -85,6 +89,8 @@ macro_rules! constructors {
             f32: |p| crate::terms::built($facets::terms(p)),
             f64: |p| crate::terms::built($facets::terms(p)),
             half: |p| crate::terms::built($facets::terms(p)),
+            sampler_f32: |p| $facets::terms(p).into_sampler(),
+            sampler_f64: |p| $facets::terms(p).into_sampler(),
             #[cfg(feature = "batch")]
             batch: $facets::batch,
             terms: Some(|p| $facets::terms(p)),
@@ -95,6 +101,8 @@ macro_rules! constructors {
             f32: $build::brdf,
             f64: $build::brdf,
             half: $build::brdf,
+            sampler_f32: $build::sampler,
+            sampler_f64: $build::sampler,
             #[cfg(feature = "batch")]
             batch: $build::batch,
             terms: $terms,
