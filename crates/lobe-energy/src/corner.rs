@@ -26,7 +26,7 @@ impl<R: Real> Corner<R> {
         let inverse = (mu + alpha).recip();
         // Of the smallest cosines the product with α² is below the smallest normal number: a power of two keeps its
         // digits.
-        let square = mu.times(R::SCALE) * (mu * alpha.times(2.0).plus(1.0) + alpha.squared());
+        let square = mu.times(R::ROOT_SCALE * R::ROOT_SCALE) * (mu * alpha.times(2.0).plus(1.0) + alpha.squared());
         let x = (square.sqrt().times(1.0 / R::ROOT_SCALE) * inverse).min(one);
         // 1 − x = (1 − x²)/(1 + x), without the difference: 1 − x² = α (1 − μ) (2μ + α)/(μ + α)².
         let rest = (alpha * inverse) * (one - mu) * ((mu + mu + alpha) * inverse) / x.plus(1.0);

@@ -10,8 +10,8 @@ use lobe_energy::{
     average_albedo, directional_albedo, masking, microfacet_albedo, weak_white_furnace, weak_white_furnace_to,
 };
 
-const WIDTHS: [f64; 7] = [1e-4, 1e-3, 0.01, 0.1, 0.3, 0.7, 1.0];
-const COSINES: [f64; 9] = [1e-6, 1e-4, 1e-3, 0.01, 0.1, 0.3, 0.6, 0.9, 1.0];
+const WIDTHS: [f64; 4] = [1e-4, 0.01, 0.3, 1.0];
+const COSINES: [f64; 5] = [1e-6, 1e-3, 0.1, 0.6, 1.0];
 
 fn at(mu: f64, azimuth: f64) -> Vec3<f64> {
     let sin = ((1.0 - mu) * (1.0 + mu)).sqrt();
@@ -34,10 +34,10 @@ fn the_closed_form_of_the_roughest_holds() {
 /// Masking is defined by it: Smith's and that of V-cavities see exactly the surface.
 #[test]
 fn the_weak_white_furnace_is_white_where_the_masking_is_right() {
-    for alpha in [1e-4, 0.01, 0.3, 1.0].map(Alpha) {
+    for alpha in WIDTHS.map(Alpha) {
         let widths = (alpha, alpha);
         let (ggx, beckmann) = (Ggx::new(alpha), Beckmann::new(alpha));
-        for mu in [1e-6, 1e-3, 0.1, 0.6, 1.0] {
+        for mu in COSINES {
             let v = at(mu, 0.3);
             let found = [
                 ("ggx, correlated", weak_white_furnace(&ggx, &SmithCorrelated, widths, v)),
@@ -94,7 +94,7 @@ fn other_maskings_are_off_by_a_known_part() {
 /// is right.
 #[test]
 fn the_furnace_of_tabulated_maskings_is_as_white_as_the_table_is_right() {
-    for alpha in [1e-4, 0.01, 0.3, 1.0].map(Alpha) {
+    for alpha in WIDTHS.map(Alpha) {
         for mu in [1e-3, 0.2, 1.0] {
             let (v, widths) = (at(mu, 0.3), (alpha, alpha));
             let blinn = weak_white_furnace(&table(PhongPower::new(alpha), alpha), &SmithCorrelated, widths, v);
