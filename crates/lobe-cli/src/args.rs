@@ -71,6 +71,9 @@ pub(crate) enum Command {
     /// Hold every model to its error bound at the extremes of its domain
     #[command(after_help = VERIFY_HELP)]
     Verify(VerifyArgs),
+    /// Draw directions of light for a viewer: CSV out
+    #[command(after_help = SAMPLE_HELP)]
+    Sample(SampleArgs),
     /// Print the completion script of a shell
     #[command(after_help = "Example:\n  lobe completions bash > ~/.local/share/bash-completion/completions/lobe")]
     Completions {
@@ -405,6 +408,80 @@ fn parse_number(text: &str) -> Result<Number, String> {
     }
 }
 
+/// `lobe sample`.
+#[derive(Debug, ArgsOf)]
+pub(crate) struct SampleArgs {
+    /// The BRDF: JSON, @FILE with JSON, or the name of a preset
+    #[arg(long, default_value = "red-plastic")]
+    pub(crate) brdf: String,
+    /// The viewer: its angle to the normal in degrees, ANGLE or ANGLE:AZIMUTH, or a unit vector X,Y,Z of the local frame
+    #[arg(long, default_value = "45", allow_negative_numbers = true, allow_hyphen_values = true, value_parser = parse_view)]
+    pub(crate) view: [f64; 3],
+    /// How many samples
+    #[arg(long, short = 'n', default_value_t = 1000, allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(0..=4_000_000_000))]
+    pub(crate) count: u64,
+    /// Which numbers they are made of: the same seed gives the same samples
+    #[arg(long, default_value_t = 0, allow_negative_numbers = true)]
+    pub(crate) seed: u64,
+    /// Independent numbers, or an even sequence
+    #[arg(long, value_enum, default_value = "random")]
+    pub(crate) sequence: Sequence,
+    /// The number type to compute and print in: f32 or f64
+    #[arg(long, default_value = "f32", value_parser = parse_number)]
+    pub(crate) number: Number,
+    /// In place of samples: how many each sampler takes for 1 % of the albedo, for GGX by each method and for all models
+    #[arg(long)]
+    pub(crate) variance: bool,
+}
+
+/// Where the numbers of a sampler come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Sequence {
+    /// Independent of each other
+    Random,
+    /// The sequence of Sobol'
+    Sobol,
+}
+
+const SAMPLE_HELP: &str = "\
+Standard output: kind,lx,ly,lz,r,g,b,pdf on each line: `scattered` with the direction to the light in the local frame
+                 (normal = +z), its weight f_r cos/pdf and its density in 1/sr; `delta`, a mirror's direction and
+                 reflectance; `rejected`, drawn below the horizon, which counts as a sample of weight 0.
+Standard error:  the mean weight, which is the albedo, and what was rejected.
+
+Examples:
+  lobe sample --brdf ggx-gold --view 60 -n 10000 > samples.csv
+  lobe sample --brdf '{\"lobes\": [{\"model\": \"phong\", \"ks\": 0.5, \"q\": 50}]}' --view 0.6,0,0.8 --sequence sobol -n 4096
+  lobe sample --variance";
+
+fn parse_view(text: &str) -> Result<[f64; 3], String> {
+    const EXPECTED: &str =
+        "degrees from the normal below 90, such as 60 or 60:45, or a unit vector above the surface, X,Y,Z";
+    let numbers =
+        |separator| text.split(separator).map(|part| part.trim().parse::<f64>()).collect::<Result<Vec<_>, _>>();
+    if text.contains(',') {
+        let view: [f64; 3] = numbers(',').ok().and_then(|v| v.try_into().ok()).ok_or(EXPECTED)?;
+        let length = view.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let [_, _, z] = view;
+        // As `lobe eval` has it: six decimals are within 1e-6 of unit length.
+        return if (length - 1.0).abs() <= 1e-5 && z > 0.0 {
+            Ok(view.map(|x| x / length))
+        } else {
+            Err(EXPECTED.to_owned())
+        };
+    }
+    let (angle, azimuth) = match numbers(':').ok().as_deref() {
+        Some([angle]) => (*angle, 0.0),
+        Some([angle, azimuth]) => (*angle, *azimuth),
+        _ => return Err(EXPECTED.to_owned()),
+    };
+    if !(0.0..90.0).contains(&angle) || !azimuth.is_finite() {
+        return Err(EXPECTED.to_owned());
+    }
+    let ((sin, cos), (y, x)) = (angle.to_radians().sin_cos(), azimuth.to_radians().sin_cos());
+    Ok([sin * x, sin * y, cos])
+}
+
 /// `lobe plot`.
 #[derive(Debug, ArgsOf)]
 pub(crate) struct PlotArgs {
@@ -630,6 +707,10 @@ pub(crate) struct VerifyArgs {
     /// The terms of microfacet models alone: D, G1 and F in f32 against f64
     #[arg(long, conflicts_with_all = ["extremes", "model"])]
     pub(crate) terms: bool,
+    /// The samplers: whether directions are drawn with the density that is told, of all our models, of one, of --brdf, or with
+    /// --mutants of planted faults
+    #[arg(long, conflicts_with_all = ["table", "program", "certificates", "extremes", "compare", "half", "terms"])]
+    pub(crate) sampling: bool,
     /// Try only a small part
     #[arg(long)]
     pub(crate) fast: bool,
@@ -651,6 +732,9 @@ Examples:
   lobe verify --table samples.csv
   lobe verify --fast --program python3 brdf.py
   lobe verify --certificates --json
+  lobe verify --sampling --fast
+  lobe verify --sampling --brdf ggx-gold
+  lobe verify --sampling --mutants
   lobe verify --extremes phong --json
   lobe verify --terms
   lobe verify --compare

@@ -1,4 +1,4 @@
-//! The command `lobe`: report, render, diff, plot, eval, models, sweep, trade, verify and audit.
+//! The command `lobe`: report, render, diff, plot, eval, sample, models, sweep, trade, verify and audit.
 //!
 //! The program is this library and a `main` of one line, so that tests and fuzz targets can call the parsers:
 //! [`spec::parse`] for BRDFs in JSON, [`eval::parse_line`] for pairs of directions in CSV.
@@ -17,6 +17,8 @@ mod progress;
 mod properties;
 mod render;
 mod report;
+mod sample;
+mod sampling;
 pub mod spec;
 mod sweep;
 mod trade;
@@ -50,6 +52,7 @@ fn run(args: &Args) -> Result<(), Failure> {
         Some(Command::Eval(eval)) => eval::run(eval, args.quiet, args.json),
         Some(Command::Models(models)) => models::run(models, args.json),
         Some(Command::Plot(plot)) => plot::run(plot, args.quiet, args.json),
+        Some(Command::Sample(sample)) => sample::run(sample, args.quiet, args.json),
         Some(Command::Sweep(sweep)) => sweep::run(sweep, args.quiet, args.json),
         Some(Command::Trade(trade)) => trade::run(trade, args.quiet, args.json),
         Some(Command::Verify(verify)) => verify::run(verify, args.quiet, args.json),

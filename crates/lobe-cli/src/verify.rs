@@ -5,6 +5,7 @@ use crate::error::Failure;
 use crate::output;
 use crate::progress::Progress;
 use crate::properties;
+use crate::sampling;
 use lobe_models::{Bound, Model, models};
 use lobe_verify::comparison::{WIDTHS_IN_HALF, compare_in_half};
 use lobe_verify::extremes::{Case, Effort, Outcome, TARGET_99};
@@ -19,6 +20,9 @@ pub(crate) fn run(args: &VerifyArgs, quiet: bool, json: bool) -> Result<(), Fail
     }
     if args.terms {
         return terms(args.fast, json);
+    }
+    if args.sampling {
+        return sampling::run(args, quiet, json);
     }
     if let Some(spec) = &args.brdf {
         return properties::brdf(spec, args.fast, json);

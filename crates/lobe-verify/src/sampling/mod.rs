@@ -41,6 +41,7 @@ mod variance;
 mod view;
 
 pub use claims::Claims;
+pub use random::Points;
 pub use report::{Case, Fit, Observed, Outcome, Property, Report, Suite, Verdict, View};
 pub use sampler::{AsSampler, Claiming, InDouble, InSingle, OfFn, Sampler};
 pub use variance::{Variance, variances};

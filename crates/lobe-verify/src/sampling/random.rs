@@ -2,6 +2,47 @@
 
 use crate::subject::Precision;
 
+/// A stream of points of `[0, 1)³` for a sampler, in the digits of the number type.
+///
+/// ```
+/// use lobe_verify::sampling::Points;
+/// use lobe_verify::subject::Precision;
+///
+/// // Every four points of the sequence have one in each half of each axis, twice.
+/// let low = Points::even("any name").take(Precision::Double, 4).filter(|[x, _, _]| *x < 0.5).count();
+/// assert_eq!(low, 2);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Points(Source);
+
+#[derive(Clone, Debug)]
+enum Source {
+    Random(Random),
+    Even(Sobol),
+}
+
+impl Points {
+    /// Independent points, by splitmix64 (Steele, Lea and Flood 2014) from the hash of a name.
+    #[must_use]
+    pub fn random(name: &str) -> Self {
+        Self(Source::Random(Random::new(seed(name), 0)))
+    }
+
+    /// The sequence of Sobol', shifted digitally by the hash of a name: at most 2³² points.
+    #[must_use]
+    pub fn even(name: &str) -> Self {
+        Self(Source::Even(Sobol::new(&mut Random::new(seed(name), 0))))
+    }
+
+    /// The first `count` of them, of 24 binary digits or of 53.
+    pub fn take(self, precision: Precision, count: usize) -> Box<dyn Iterator<Item = [f64; 3]>> {
+        match self.0 {
+            Source::Random(mut random) => Box::new((0..count).map(move |_| random.point(precision))),
+            Source::Even(sequence) => Box::new(sequence.into_points(precision).take(count)),
+        }
+    }
+}
+
 /// The FNV-1a hash of a name: the seed that nobody picked.
 pub(crate) fn seed(name: &str) -> u64 {
     name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
@@ -83,7 +124,11 @@ impl Sobol {
     }
 
     /// The first `2³²` points, in the order of Gray's code, which changes one digit a step (Antonov and Saleev 1979).
-    pub(crate) fn points(&self, precision: Precision) -> impl Iterator<Item = [f64; 3]> {
+    pub(crate) fn points(&self, precision: Precision) -> impl Iterator<Item = [f64; 3]> + use<> {
+        self.clone().into_points(precision)
+    }
+
+    fn into_points(self, precision: Precision) -> impl Iterator<Item = [f64; 3]> {
         (1..=u32::MAX).scan(self.shift, move |state, next| {
             let point = state.map(|bits| unit(bits, precision));
             let digit = next.trailing_zeros() as usize;
