@@ -2,11 +2,11 @@
 //! `e = (nu h.x² + nv h.y²)/(1 − h.z²)`; and the diffuse lobe that goes with it.
 
 use super::power::half_vector_power;
-use super::{Brdf, Shininess, above_horizon, both_above, zero_or_nan};
+use super::{Brdf, Shininess, above_horizon, both_above, keep_nan};
 use crate::carry::carry;
 use crate::color::Rgb;
 use crate::fresnel::{Fresnel, Incidence, Schlick};
-use crate::number::Real;
+use crate::number::{Quotient, Real};
 use crate::vector::Vec3;
 use core::f64::consts::PI;
 
@@ -90,54 +90,52 @@ impl<R: Real> AshikhminShirley<R> {
         AshikhminShirley::new(self.f0.map(&f), self.nu.map(&f), self.nv.map(&f))
     }
 
-    /// `F · factor(peak (n·h)^e, l·h)`.
+    /// `F · finish(peak (n·h)^e weight/(max(n·l, n·v) (l·h)))`, with one division for both quotients of the exponent, and one for
+    /// `weight/max(n·l, n·v)` and what Schlick's form takes.
     #[inline(always)]
-    fn lobe(&self, l: Vec3<R>, v: Vec3<R>, factor: impl Fn(R, R) -> R) -> Rgb<R> {
-        let s = (l + v) * l.z.lift(R::SCALE);
-        let (x2, y2, z2) = (s.x.squared(), s.y.squared(), s.z.squared());
+    fn lobe(&self, l: Vec3<R>, v: Vec3<R>, weight: R, finish: impl Fn(R) -> R) -> Rgb<R> {
+        let s = (l + v) * l.z.lift(R::COSINE_SCALE);
+        let (x2, y2, z2) = (s.x.squared(), s.y.squared(), s.z.squared().off_zero());
         let sin2 = x2 + y2;
         // The mean of the exponents along h. At h = n it is 0/0, and any value will do, since sin² is 0: with the
-        // smallest normal number in its place it is 0/tiny.
-        let share = sin2.max(sin2.lift(R::MIN_POSITIVE));
-        let exponent = self.nu.0 * (x2 / share) + self.nv.0 * (y2 / share);
+        // smallest normal number in its place it is 0/tiny. Each share first: a square times an exponent may leave the range.
+        let inverse = sin2.max(sin2.lift(R::MIN_POSITIVE)).recip();
+        let exponent = self.nu.0.mul_add(x2 * inverse, self.nv.0 * (y2 * inverse));
         let power = half_vector_power(sin2, z2, exponent, both_above(l, v));
         // |l + v|/2; of rounded unit vectors it may exceed 1.
-        let cos_d = (sin2 + z2).sqrt().times(0.5 / R::SCALE).min(sin2.lift(1.0));
-        let fresnel = self.fresnel.fresnel(Incidence::halfway(l, v, cos_d));
+        let cos_d = (sin2 + z2).sqrt().times(0.5 / R::COSINE_SCALE).min(sin2.lift(1.0));
+        let (incidence, share) = Incidence::halfway_and(l, v, cos_d, Quotient::new(weight, l.z.max(v.z)));
         let value = self.peak * power;
-        // A zero is kept: what it would be divided by may be 0 at the horizon.
-        let value = R::select(value.eq(value.lift(0.0)), value, factor(value, cos_d));
-        fresnel.map(
-            #[inline(always)]
-            |f| f * value + zero_or_nan(l, v),
-        )
+        // A zero is kept: what it would be divided by may be 0 at the horizon. One after the other: the product of two cosines
+        // of 1e-20 underflows.
+        let value = R::select(value.eq(value.lift(0.0)), value, finish(value * share / cos_d));
+        self.fresnel.fresnel(incidence) * keep_nan(l, v, value)
     }
 }
 
 impl<R: Real> Brdf<R> for AshikhminShirley<R> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        // One after the other: the product of two cosines of 1e-20 underflows.
         self.lobe(
             l,
             v,
+            l.z.lift(1.0),
             #[inline(always)]
-            |value, cos_d| value / l.z.max(v.z) / cos_d,
+            |value| value,
         )
     }
 
     /// `(n·l)/max(n·l, n·v) ≤ 1` is finite; what is left of the denominator is `l·h`.
     #[inline(always)]
     fn eval_cos(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
-        let share = l.z / l.z.max(v.z);
-        // Without the bound a pixel at the horizon is infinite, and the mean of its neighbours too (test
-        // `bounded_at_the_horizon`).
-        let bounded = |x: R| x.min(x.lift((1u128 << 127) as f64));
         self.lobe(
             l,
             v,
+            l.z,
+            // Without the bound a pixel at the horizon is infinite, and the mean of its neighbours too (test
+            // `bounded_at_the_horizon`).
             #[inline(always)]
-            |value, cos_d| bounded(value * (share / cos_d)),
+            |value| value.min(value.lift((1u128 << 127) as f64)),
         )
     }
 }
