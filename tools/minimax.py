@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fits the polynomials of `crates/lobe/src/number/elementary.rs` and `approximate.rs` and prints coefficients and bounds.
+"""Fits the polynomials of `crates/lobe/src/number/elementary.rs` and `approximate.rs`, and those of an azimuth in
+`crates/lobe-sampling/src/map.rs`, and prints coefficients and bounds.
 
     pip install mpmath && python3 tools/minimax.py
 
@@ -189,3 +190,15 @@ lo, hi = ends(magic)
 print(f"rsqrt: magic {magic:#x}, r from {lo:.6} to {hi:.6}")
 for degree in [1, 2]:
     fit(f"rsqrt: degree {degree}", lambda r: r ** mp.mpf(-0.5), powers(0, degree + 1), lambda r: r ** mp.mpf(0.5), lo, hi, one_by_one=False)
+
+
+# --- `lobe-sampling`, `map.rs`: sine and cosine of pi b, by the absolute error, in double precision -------------------
+
+for name, target, basis in [
+    ("sin: sin(pi b) = b S(b^2)", lambda b: mp.sin(mp.pi * b), powers(1, 8, 2)),
+    ("cos: cos(pi b) = 1 + b^2 C(b^2)", lambda b: mp.cos(mp.pi * b) - 1, powers(2, 7, 2)),
+]:
+    c, worst = remez(target, basis, lambda b: mp.mpf(1), tiny, mp.mpf("0.5"))
+    print(f"azimuth {name}: error {mp.nstr(worst, 3)}")
+    for x in c:
+        print(f"    {mp.nstr(x, 17)}")

@@ -11,7 +11,7 @@
 //! every contender runs once, over several buffers in turn; the ratio is the median of the rounds' ratios, with its
 //! quartiles.
 
-use lobe::batch::{Batch, Kernel, Level, Shade, levels};
+use lobe::batch::{Batch, Kernel, Shade};
 use lobe::distribution::{Beckmann, Ggx};
 use lobe::fresnel::{Conductor, Schlick};
 use lobe::masking::{RationalBeckmann, SmithCorrelated};
@@ -21,29 +21,25 @@ use lobe::{
     Vec3, Ward,
 };
 use lobe_benches::plain_batches as plain;
-use lobe_benches::slices::{Aligned, Slices};
-use std::hint::black_box;
-use std::time::Instant;
+use lobe_benches::rounds::{self, CACHED, wanted_level};
+use lobe_benches::slices::{self, Slices};
 
-/// Points in a batch that stays in the first cache: nine slices of 2 KiB.
-const CACHED: usize = 256;
-/// Batches of them, so that nothing is learnt about one.
-const BUFFERS: usize = 4;
+type Run<'a> = rounds::Run<'a, Slices, Out>;
 
-/// Somewhere to write to.
-struct Out([Aligned; 3]);
+/// The channels of the result.
+struct Out(slices::Out<3>);
 
 impl Out {
-    fn new(count: usize) -> Self {
-        Self(std::array::from_fn(|_| Aligned::new(vec![0.0; count].into_iter())))
-    }
     fn get(&mut self) -> Rgb<&mut [f32]> {
-        let [r, g, b] = self.0.each_mut().map(Aligned::get_mut);
+        let [r, g, b] = self.0.get();
         Rgb { r, g, b }
     }
 }
 
-type Run<'a> = (String, Box<dyn FnMut(&Slices, &mut Out) + 'a>);
+/// [`rounds::compare`] of what shades `count` pairs of directions.
+fn compare(title: &str, count: usize, runs: &mut [Run<'_>]) {
+    rounds::compare(title, count, |seed| Slices::of(count, seed), Out(slices::Out::new(count)), runs);
+}
 
 /// The loop of the baseline. The outputs are arguments of their own, so that the compiler knows that they do not overlap.
 #[inline(never)]
@@ -65,41 +61,6 @@ fn plain_loop(
         g[i] = f.y;
         b[i] = f.z;
     }
-}
-
-/// Runs every contender once per round, and prints the medians of their times and of their ratios to the first.
-fn compare(title: &str, count: usize, runs: &mut [Run<'_>]) {
-    let wanted: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
-    if !wanted.is_empty() && !wanted.iter().any(|name| title.contains(name.as_str())) {
-        return;
-    }
-    let test = std::env::args().any(|argument| argument == "--test");
-    let inputs: Vec<Slices> = (0..BUFFERS).map(|k| Slices::of(count, k as u64)).collect();
-    let mut out = Out::new(count);
-    let rounds = if test { 2 } else { (40_000_000 / count / runs.len()).clamp(16, 600) / BUFFERS };
-    let mut times = vec![Vec::new(); runs.len()];
-    for _ in 0..rounds {
-        for ((_, run), times) in runs.iter_mut().zip(&mut times) {
-            let start = Instant::now();
-            for slices in &inputs {
-                run(black_box(slices), &mut out);
-                black_box(&out.0);
-            }
-            times.push(start.elapsed().as_secs_f64() * 1e9 / (count * BUFFERS) as f64);
-        }
-    }
-    println!("{title}");
-    for ((name, _), mine) in runs.iter().zip(&times) {
-        let ratios: Vec<f64> = times[0].iter().zip(mine).map(|(plain, mine)| plain / mine).collect();
-        let (low, ratio, high) = quartiles(ratios);
-        println!("  {name:<28} {:>8.3} ns  {ratio:>6.2} x  [{low:.2}, {high:.2}]", quartiles(mine.clone()).1);
-    }
-}
-
-fn quartiles(mut values: Vec<f64>) -> (f64, f64, f64) {
-    values.sort_by(f64::total_cmp);
-    let at = |part: usize| values[(values.len() - 1) * part / 4];
-    (at(1), at(2), at(3))
 }
 
 /// A lobe of ours to both precisions, and its plain version.
@@ -144,14 +105,6 @@ impl<R: Real> Kernel<(Vec3<R>, Vec3<R>), Rgb<R>> for Move {
     fn apply(&self, (l, v): (Vec3<R>, Vec3<R>)) -> Rgb<R> {
         Rgb { r: l.x + v.x, g: l.y + v.y, b: l.z + v.z }
     }
-}
-
-/// The best level, or the one that `LOBE_LEVEL` names.
-fn wanted_level() -> (&'static str, Level) {
-    let mut all: Vec<_> = levels(Level::new()).collect();
-    let wanted = std::env::var("LOBE_LEVEL");
-    all.retain(|(name, _)| wanted.as_deref().is_ok_and(|wanted| wanted == *name) || wanted.is_err());
-    all.pop().unwrap_or_else(|| panic!("LOBE_LEVEL={wanted:?} is no level of this machine"))
 }
 
 fn main() {

@@ -70,3 +70,49 @@ impl Slices {
         Vec3::new(self.0[3].get(), self.0[4].get(), self.0[5].get())
     }
 }
+
+/// Viewers and the three numbers that a sample is drawn from, a slice for each.
+#[derive(Debug)]
+pub struct Draws([Aligned; 6]);
+
+impl Draws {
+    /// `count` of them; one viewer in thirty-two is below the horizon.
+    #[must_use]
+    pub fn of(count: usize, seed: u64) -> Self {
+        let pairs = crate::directions_of(count, seed);
+        let column = |f: fn(&(glam::Vec3, glam::Vec3)) -> f32| Aligned::new(pairs.iter().map(f));
+        let mut next = crate::numbers(!seed);
+        let mut numbers = || Aligned::new((0..count).map(|_| next()));
+        Self([column(|p| p.1.x), column(|p| p.1.y), column(|p| p.1.z), numbers(), numbers(), numbers()])
+    }
+
+    /// The directions to the viewer.
+    #[must_use]
+    pub fn v(&self) -> Vec3<&[f32]> {
+        Vec3::new(self.0[0].get(), self.0[1].get(), self.0[2].get())
+    }
+
+    /// The three numbers of `[0, 1)`.
+    #[must_use]
+    pub fn u(&self) -> (&[f32], &[f32], &[f32]) {
+        (self.0[3].get(), self.0[4].get(), self.0[5].get())
+    }
+}
+
+/// Somewhere to write `N` numbers for each point to.
+#[derive(Debug)]
+pub struct Out<const N: usize>([Aligned; N]);
+
+impl<const N: usize> Out<N> {
+    /// Zeros.
+    #[must_use]
+    pub fn new(count: usize) -> Self {
+        Self(std::array::from_fn(|_| Aligned::new(vec![0.0; count].into_iter())))
+    }
+
+    /// The slices.
+    #[must_use]
+    pub fn get(&mut self) -> [&mut [f32]; N] {
+        self.0.each_mut().map(Aligned::get_mut)
+    }
+}

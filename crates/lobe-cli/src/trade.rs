@@ -10,7 +10,7 @@ use lobe::batch::{Level, levels};
 use lobe::{Rgb, Shininess};
 use lobe_models::{Lobe, Material, Value, model, nearest};
 use lobe_scene::{Scene, Surface, check_writable};
-use lobe_trade::{Bench, Effort, Number, Row, Subject, catalogue, is_noisy};
+use lobe_trade::{Bench, Effort, Number, Quartiles, Row, Subject, catalogue, is_noisy};
 use serde_json::json;
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -170,6 +170,11 @@ fn bytes(row: &Row) -> String {
     row.code.map_or_else(|| "-".to_owned(), |bytes| bytes.to_string())
 }
 
+/// The nanoseconds of a sample, or that none is timed.
+fn sample(row: &Row) -> String {
+    row.sample.map_or_else(|| "-".to_owned(), |ns| format!("{:.2}", ns.median))
+}
+
 /// Why some rows have no bytes of code, if so.
 fn no_code(rows: &[Row], none_at_all: Option<&str>) -> Option<String> {
     let lacking = rows.iter().any(|row| row.code.is_none());
@@ -191,7 +196,7 @@ fn table(rows: &[Row]) -> String {
         if form.is_empty() {
             let _ = writeln!(
                 text,
-                "{:<33} ns (quartiles)        stream  M/s all   bytes   median  p99     worst   albedo  ΔE mean  worst  8 bit",
+                "{:<33} ns (quartiles)        sample  stream  M/s all   bytes   median  p99     worst   albedo  ΔE mean  worst  8 bit",
                 row.subject
             );
         }
@@ -204,10 +209,11 @@ fn table(rows: &[Row]) -> String {
         let (ns, seen) = (row.resident, row.seen);
         let _ = writeln!(
             text,
-            "    {:<16} {:>18.2} {:<15} {:>7.2} {:>8.0} {:>7}   {:<7} {:<7} {:<7} {:<7} {:>7.3} {:>6.2} {:>6}",
+            "    {:<16} {:>18.2} {:<15} {:>7} {:>7.2} {:>8.0} {:>7}   {:<7} {:<7} {:<7} {:<7} {:>7.3} {:>6.2} {:>6}",
             row.number.name(),
             ns.median,
             format!("({:.2}–{:.2})", ns.low, ns.high),
+            sample(row),
             row.streaming.median,
             row.all_cores * 1e-6,
             bytes(row),
@@ -275,11 +281,13 @@ fn choice(rows: &[Row], budget: f64) -> String {
 fn row_facts(row: &Row) -> serde_json::Value {
     // JSON has no word for an infinity.
     let number = |x: f64| if x.is_finite() { json!(x) } else { json!(null) };
+    let times = |ns: Quartiles| json!({ "median": ns.median, "low": ns.low, "high": ns.high });
     json!({
         "form": row.form,
         "number": row.number.name(),
-        "ns": { "median": row.resident.median, "low": row.resident.low, "high": row.resident.high },
-        "ns_streaming": { "median": row.streaming.median, "low": row.streaming.low, "high": row.streaming.high },
+        "ns": times(row.resident),
+        "ns_sample": row.sample.map(times),
+        "ns_streaming": times(row.streaming),
         "per_second_all_cores": row.all_cores,
         "code_bytes": row.code,
         "error": {
@@ -318,7 +326,7 @@ pub(crate) fn facts(all: &[Vec<Row>], budget: Option<f64>, no_code: Option<&str>
 
 fn csv(rows: &[Row]) -> String {
     let mut text = String::from(
-        "subject,form,number,ns,ns_low,ns_high,ns_streaming,per_second_all_cores,error_median,error_p99,error_worst,\
+        "subject,form,number,ns,ns_low,ns_high,ns_sample,ns_sample_low,ns_sample_high,ns_streaming,per_second_all_cores,error_median,error_p99,error_worst,\
          albedo_error,delta_e_mean,delta_e_worst,steps_of_8_bits,code_bytes\n",
     );
     // Names of materials come from files.
@@ -327,13 +335,14 @@ fn csv(rows: &[Row]) -> String {
         let (ns, error, seen) = (row.resident, row.error, row.seen);
         let _ = writeln!(
             text,
-            "{},{},{},{:.4},{:.4},{:.4},{:.4},{:.0},{:e},{:e},{:e},{:e},{:e},{:e},{},{}",
+            "{},{},{},{:.4},{:.4},{:.4},{},{:.4},{:.0},{:e},{:e},{:e},{:e},{:e},{:e},{},{}",
             quoted(&row.subject),
             quoted(&row.form),
             row.number.name(),
             ns.median,
             ns.low,
             ns.high,
+            row.sample.map_or_else(|| ",,".to_owned(), |ns| format!("{:.4},{:.4},{:.4}", ns.median, ns.low, ns.high)),
             row.streaming.median,
             row.all_cores,
             error.median,
@@ -354,7 +363,9 @@ Made by `lobe trade --markdown`; `lobe trade --help` and the crate `lobe-trade` 
 
 - *ns*: nanoseconds for one evaluation of all three channels, times the cosine and the light, added to a pixel; from
   buffers that stay in the cache. Scalars are called through a pointer, point by point; lanes once for a buffer.
-- *stream*: the same from 64 MiB of other points each time.
+- *sample*: nanoseconds for one sample, a direction of light with its weight and its density, through a pointer too; in the
+  scalars `f32` and `f64`.
+- *stream*: evaluations from 64 MiB of other points each time.
 - *M/s*: millions of evaluations a second, all cores together.
 - *p99*, *worst*: the relative error of `eval_cos` against `f64` of the same inputs, above a ten-thousandth of the peak.
 - *albedo*: the relative error of the directional albedo.
@@ -376,17 +387,18 @@ fn markdown(all: &[Vec<Row>], noisy: bool, no_code: Option<&str>) -> String {
         let Some(first) = rows.first() else { continue };
         let _ = write!(
             text,
-            "\n## {}\n\n| form | number | ns | stream | M/s | p99 | worst | albedo | ΔE | 8 bit | bytes |\n\
-             |---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+            "\n## {}\n\n| form | number | ns | sample | stream | M/s | p99 | worst | albedo | ΔE | 8 bit | bytes |\n\
+             |---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
             first.subject
         );
         for row in rows {
             let _ = writeln!(
                 text,
-                "| {} | {} | {:.2} | {:.2} | {:.0} | {} | {} | {} | {:.2} | {} | {} |",
+                "| {} | {} | {:.2} | {} | {:.2} | {:.0} | {} | {} | {} | {:.2} | {} | {} |",
                 row.form,
                 row.number.name(),
                 row.resident.median,
+                sample(row),
                 row.streaming.median,
                 row.all_cores * 1e-6,
                 short(row.error.p99),

@@ -116,6 +116,60 @@ fn bytes_of_code_are_in_every_output() {
     assert_eq!(table.contains("\nbytes: "), !known);
 }
 
+/// The scalars `f32` and `f64` have the time of a sample, the others none.
+#[test]
+fn the_time_of_a_sample_is_in_every_output() {
+    let folder = scene();
+    let run = |more: &[&str]| {
+        let arguments = [&["trade", "scene.json", "--quick", "--csv", "t.csv", "--markdown", "t.md"], more].concat();
+        let run = lobe_in(folder.path(), &arguments);
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        text(&run.stdout)
+    };
+    let sampled = |number: &str| matches!(number, "f32" | "f64");
+    let facts: serde_json::Value = serde_json::from_str(&run(&["--json"])).expect("JSON");
+    let rows = facts["subjects"][0]["rows"].as_array().expect("rows");
+    for row in rows {
+        let ns = &row["ns_sample"];
+        assert_eq!(ns["median"].as_f64() > Some(0.0), sampled(row["number"].as_str().expect("a name")), "{row}");
+        assert!(ns.is_null() || ns["low"].as_f64() <= ns["high"].as_f64(), "{row}");
+    }
+
+    // A cell holds a time above 0, or what stands for none.
+    let check = |number: &str, cell: &str, none: &str, line: &str| {
+        assert_eq!(cell.parse::<f64>().ok() > Some(0.0), sampled(number), "{line}");
+        assert!(sampled(number) || cell == none, "{line}");
+    };
+    let csv = fs::read_to_string(folder.path().join("t.csv")).expect("a file");
+    assert_eq!(csv.lines().count(), 1 + rows.len());
+    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = lines.next().expect("a head");
+    let column = |name: &str| head.iter().position(|cell| *cell == name).expect("a column");
+    for line in lines {
+        assert_eq!(line.len(), head.len());
+        for name in ["ns_sample", "ns_sample_low", "ns_sample_high"] {
+            check(line[column("number")], line[column(name)], "", &line.join(","));
+        }
+    }
+
+    let page = fs::read_to_string(folder.path().join("t.md")).expect("a file");
+    assert!(page.contains("| form | number | ns | sample |") && page.contains("\n- *sample*: "), "{page}");
+    let lines = page.lines().skip_while(|line| !line.starts_with("|---")).skip(1);
+    for line in lines {
+        let cells: Vec<_> = line.split('|').map(str::trim).collect();
+        check(cells[2], cells[4], "-", line);
+    }
+
+    let table = run(&[]);
+    assert!(table.contains(" sample "), "{table}");
+    let lines: Vec<_> = table.lines().filter(|line| line.starts_with("    ")).collect();
+    assert_eq!(lines.len(), rows.len());
+    for (line, row) in lines.iter().zip(rows) {
+        let cell = line.split_whitespace().rev().nth(10).expect("a cell");
+        check(row["number"].as_str().expect("a name"), cell, "-", line);
+    }
+}
+
 #[test]
 fn what_is_wrong_is_said() {
     let folder = scene();

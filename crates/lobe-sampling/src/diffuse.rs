@@ -1,7 +1,7 @@
 //! Diffuse lobes, by the cosine or by one that is transformed.
 
 use crate::draw::{Draw, sample_by_drawing, tilted, times_pi};
-use crate::map::cosine_hemisphere;
+use crate::map::{azimuth, cosine_hemisphere};
 use core::f64::consts::{FRAC_1_PI, TAU};
 use lobe::{Brdf, BurleyDiffuse, Eon, Lambert, OrenNayar, OrenNayarQualitative, Real, Rgb, Vec3};
 
@@ -98,7 +98,7 @@ impl<R: Real> Clipped<R> {
     #[inline(always)]
     fn direction(&self, [x, y]: [R; 2]) -> Vec3<R> {
         let Self { a, b, c, d, left, azimuth: (cos, sin), .. } = *self;
-        let (sin_phi, cos_phi) = y.times(TAU).sin_cos();
+        let (sin_phi, cos_phi) = azimuth(y);
         let radius = x.sqrt();
         let (one, zero) = (x.lift(1.0), x.lift(0.0));
         let y = radius * sin_phi;

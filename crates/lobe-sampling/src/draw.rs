@@ -2,7 +2,8 @@
 //! maps.
 
 use crate::Sampled;
-use core::f64::consts::{LN_2, TAU};
+use crate::map::azimuth;
+use core::f64::consts::LN_2;
 use lobe::{Brdf, Real, Rgb, Vec3};
 
 /// What is particular to the sampler of a lobe. The horizon and NaN are the same for all: [`sample`], [`pdf`].
@@ -89,7 +90,7 @@ pub(crate) fn scaled_sum<R: Real>(l: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
 /// The unit vector with the angle to `+z` that has `1 − cos = t`, and the azimuth `2π y`.
 #[inline(always)]
 pub(crate) fn tilted<R: Real>(t: R, y: R) -> Vec3<R> {
-    let (sin_phi, cos_phi) = y.times(TAU).sin_cos();
+    let (sin_phi, cos_phi) = azimuth(y);
     let sin = (t * (t.lift(2.0) - t)).sqrt();
     Vec3::new(sin * cos_phi, sin * sin_phi, t.lift(1.0) - t)
 }

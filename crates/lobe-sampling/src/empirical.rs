@@ -2,7 +2,8 @@
 //! cover them.
 
 use crate::draw::{Draw, by_facet, exp_m1_by, ln_1p_by, sample_by_drawing, scaled_sum, tilted};
-use core::f64::consts::{FRAC_1_PI, LOG2_E, PI, TAU};
+use crate::map::azimuth;
+use core::f64::consts::{FRAC_1_PI, LOG2_E, PI};
 use lobe::distribution::{Distribution, Ggx, SmithLambda};
 use lobe::fresnel::{Dielectric, Fresnel, Incidence};
 use lobe::{Alpha, Brdf, HeTorrance, LowMicrofacet, LowSmooth, Real, Rgb, ShiftedGamma, Vec3};
@@ -64,7 +65,7 @@ fn deviation<R: Real>(lobe: &LowSmooth<R>, v: Vec3<R>) -> Profile<R> {
 impl<R: Real> Draw<R> for LowSmooth<R> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
-        let (sin, cos) = y.times(TAU).sin_cos();
+        let (sin, cos) = azimuth(y);
         let radius = deviation(self, v).at(x).sqrt();
         let (x, y, zero) = (radius * cos - v.x, radius * sin - v.y, v.x.lift(0.0));
         let length = (x.squared() + y.squared()).sqrt();
@@ -146,7 +147,7 @@ impl<R: Real> Facets<R> {
         // Of a viewer below the horizon, whose sample is rejected, the one above: straight from below no facet is seen,
         // and its normal would be 0/0.
         let w = Vec3::new(v.x * alpha, v.y * alpha, v.z.abs()).normalize();
-        let (sin_phi, cos_phi) = y.times(TAU).sin_cos();
+        let (sin_phi, cos_phi) = azimuth(y);
         // z = (1 − x)(1 + w.z) − w.z, and z + w.z, 1 − z and 1 + z without the difference.
         let cap = w.z.plus(1.0);
         let up = (x.lift(1.0) - x) * cap;

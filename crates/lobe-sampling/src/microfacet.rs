@@ -101,9 +101,7 @@ impl<R: Real> Specular<R> {
 /// Below the horizon the viewer is mirrored up, so that what is drawn for it, and then rejected, is a direction too.
 #[inline(always)]
 pub(crate) fn mirrored<R: Real, D, M: Facets<R, D>>(distribution: &D, method: &M, v: Vec3<R>, u: [R; 2]) -> Vec3<R> {
-    let v = upwards(v);
-    let h = method.normal(distribution, v, u);
-    h * h.dot(v).times(2.0) - v
+    method.light(distribution, upwards(v), u)
 }
 
 /// A grey lobe of facets without Fresnel's term, as one part of a mixture.
@@ -143,10 +141,12 @@ where
     #[inline(always)]
     fn sample(&self, v: Vec3<R>, [choice, x, y]: [R; 3]) -> Sampled<R> {
         let (distribution, masking) = (self.lobe.distribution(), self.lobe.masking());
-        let l = mirrored(distribution, &self.method, v, [x, y]);
+        // The same viewer for all of it, so that what both steps need is computed once.
+        let up = upwards(v);
+        let l = self.method.light(distribution, up, [x, y]);
         let nan = nan_of(v, [choice, x, y]) + (l.x + l.y + l.z).times(0.0);
         // Of the direction as it is rounded, not of the facet that was drawn: so the density of the sample is that of `pdf`.
-        let specular = Specular::new(distribution, masking, &self.method, l, v);
+        let specular = Specular::new(distribution, masking, &self.method, l, up);
         let weight = self.lobe.fresnel().fresnel(specular.incidence) * specular.weight * self.factor + Rgb::splat(nan);
         Sampled::new(l, weight, specular.pdf + nan, l.z.min(v.z).le(nan))
     }
@@ -266,16 +266,17 @@ impl<R: Real, G: Masking<R, D>, D: Distribution<R>, M: Facets<R, D>> Metallic<'_
 impl<R: Real, G: Masking<R, D>, D: Distribution<R>, M: Facets<R, D>> Sample<R> for Metallic<'_, R, G, D, M> {
     #[inline(always)]
     fn sample(&self, v: Vec3<R>, u: [R; 3]) -> Sampled<R> {
+        let up = upwards(v);
         one_of_two(
             v,
             u,
-            self.guesses(v),
+            self.guesses(up),
             #[inline(always)]
-            |[_, x, y]| Part::scattered(mirrored(self.material.distribution(), &self.method, v, [x, y])),
+            |[_, x, y]| Part::scattered(mirrored(self.material.distribution(), &self.method, up, [x, y])),
             #[inline(always)]
             |[_, x, y]| Part::scattered(cosine_hemisphere([x, y])),
             #[inline(always)]
-            |l| self.eval_cos_pdf(l, v),
+            |l| self.eval_cos_pdf(l, up),
         )
     }
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Sums of lobes: one of them is drawn, and the sample counts for all.
 
-use crate::rules::nan_of;
+use crate::rules::{nan_of, upwards};
 use crate::{Sample, Sampled};
 use lobe::{Real, Rgb, Sum, Vec3};
 
@@ -122,16 +122,18 @@ const LAST: f64 = 1.0 - 1.0 / 16_777_216.0;
 impl<R: Real, A: Sample<R>, B: Sample<R>> Sample<R> for Sum<A, B> {
     #[inline(always)]
     fn sample(&self, v: Vec3<R>, u: [R; 3]) -> Sampled<R> {
+        // Below the horizon the viewer is mirrored up; its sample is rejected, and what both steps need is computed once.
+        let up = upwards(v);
         one_of_two(
             v,
             u,
-            (self.a.albedo_guess(v), self.b.albedo_guess(v)),
+            (self.a.albedo_guess(up), self.b.albedo_guess(up)),
             #[inline(always)]
-            |u| Part::whole(self.a.sample(v, u)),
+            |u| Part::whole(self.a.sample(up, u)),
             #[inline(always)]
-            |u| Part::whole(self.b.sample(v, u)),
+            |u| Part::whole(self.b.sample(up, u)),
             #[inline(always)]
-            |l| self.eval_cos_pdf(l, v),
+            |l| self.eval_cos_pdf(l, up),
         )
     }
     #[inline(always)]

@@ -8,7 +8,7 @@
 use crate::draw::{
     Draw, by_facet, exp_m1_by, ln_complement, mirrored, sample_by_drawing, scaled_sum, tilted, times_pi,
 };
-use crate::map::cosine_hemisphere;
+use crate::map::{azimuth, cosine_hemisphere};
 use core::f64::consts::{FRAC_1_PI, PI, TAU};
 use lobe::fresnel::{Fresnel, Incidence, Schlick};
 use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
@@ -169,7 +169,7 @@ impl<R: Real> Draw<R> for AshikhminShirley<R> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
         let (nu, nv) = self.shininess();
-        let (sin, cos) = y.times(TAU).sin_cos();
+        let (sin, cos) = azimuth(y);
         let (a, b) = (cos / nu.0.plus(1.0).sqrt(), sin / nv.0.plus(1.0).sqrt());
         let square = a.squared() + b.squared();
         let t = fall(ln_complement(x), square);

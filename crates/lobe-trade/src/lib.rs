@@ -1,5 +1,5 @@
-//! What digits cost: the time and the machine code of each model of `lobe` in each number type, beside the error that is
-//! seen.
+//! What digits cost: the time of a value and of a sample, and the machine code, of each model of `lobe` in each number type,
+//! beside the error that is seen.
 //!
 //! ```
 //! use lobe_models::{Material, preset};
@@ -23,6 +23,9 @@
 //!
 //! - *resident*: buffers of 256 points, eight of them in turn, so that neither branches nor addresses are learnt by
 //!   heart. They are 96 KiB together.
+//! - *sample*: of the scalars `f32` and `f64`, a direction with its weight and its density, from a viewer and three numbers of
+//!   `[0, 1)`, through a pointer for each point; as many buffers, in turn with the above. Of several lobes one draws, and all
+//!   of them are evaluated at the direction that it gives.
 //! - *streaming*: every point is another one, [`Effort::stream`] bytes in all. A machine whose last cache is larger than
 //!   that serves it from there.
 //! - *all cores*: the resident loop on every core at once.

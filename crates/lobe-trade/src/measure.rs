@@ -6,7 +6,7 @@ use crate::subject::Subject;
 use lobe::batch::{Level, levels};
 use lobe::number::{Approximate, Coarse, Fast};
 use lobe::{Rgb, Vec3};
-use lobe_models::{AnyBatch, AnyBrdf, AnyPrecision, Material, Number as Scalar};
+use lobe_models::{AnyBatch, AnyBrdf, AnyPrecision, AnySampler, Material, Number as Scalar, SampleNumber};
 use std::f64::consts::{PI, TAU};
 use std::sync::Barrier;
 use std::time::{Duration, Instant};
@@ -158,6 +158,9 @@ pub struct Row {
     pub number: Number,
     /// Nanoseconds for an evaluation, from buffers that stay in the cache.
     pub resident: Quartiles,
+    /// Nanoseconds for a sample: a direction, its weight and its density. `None` in the numbers that the catalogue has no samplers
+    /// in, which are all but the scalars `f32` and `f64`.
+    pub sample: Option<Quartiles>,
     /// Nanoseconds for an evaluation, from buffers that do not.
     pub streaming: Quartiles,
     /// Evaluations a second of all cores together.
@@ -238,6 +241,44 @@ fn vector([x, y, z]: &[Vec<f32>; 3]) -> Vec3<&[f32]> {
     Vec3::new(x, y, z)
 }
 
+/// Viewers, the three numbers that a sample is drawn from, and the samples.
+struct Draws<R> {
+    v: [Vec<R>; 3],
+    u: [Vec<R>; 3],
+    out: Vec<(Vec3<R>, Rgb<R>, R)>,
+}
+
+impl<R: SampleNumber> Draws<R> {
+    /// For the viewers of as many pairs.
+    fn new(pairs: &[Pair], random: &mut impl FnMut() -> f64) -> Self {
+        let viewer = |c: fn(Vec3<f64>) -> f64| pairs.iter().map(|pair| R::from_f64(c(pair.1))).collect();
+        let mut numbers = || pairs.iter().map(|_| R::from_f64(random())).collect();
+        let zero = R::from_f64(0.0);
+        Self {
+            v: [viewer(|v| v.x), viewer(|v| v.y), viewer(|v| v.z)],
+            u: [numbers(), numbers(), numbers()],
+            out: vec![(Vec3::new(zero, zero, zero), Rgb::splat(zero), zero); pairs.len()],
+        }
+    }
+
+    fn all(pairs: &[Pair]) -> Vec<Self> {
+        let mut random = random(2);
+        let pair = |i: usize| pairs[i % pairs.len()];
+        (0..BUFFERS)
+            .map(|k| Self::new(&(0..POINTS).map(|i| pair(k * POINTS + i)).collect::<Vec<_>>(), &mut random))
+            .collect()
+    }
+
+    /// A sample for each point.
+    fn sample(&mut self, sampler: &AnySampler<R>) {
+        let Self { v, u, out } = self;
+        for (i, out) in out.iter_mut().enumerate() {
+            let sampled = sampler.sample(Vec3::new(v[0][i], v[1][i], v[2][i]), [u[0][i], u[1][i], u[2][i]]);
+            *out = (sampled.l, sampled.weight, sampled.pdf);
+        }
+    }
+}
+
 /// The points of all kinds of timing in one scalar type.
 #[derive(Clone)]
 struct Buffers<R> {
@@ -297,6 +338,28 @@ impl Runner {
     }
 }
 
+/// The sampler of a form, in the scalars that have one.
+enum Sampler {
+    F32(AnySampler<f32>),
+    F64(AnySampler<f64>),
+}
+
+impl Sampler {
+    fn new(material: &Material, number: Number) -> Option<Self> {
+        match number {
+            Number::F32 => Some(Self::F32(material.sampler())),
+            Number::F64 => Some(Self::F64(material.sampler())),
+            Number::Fast | Number::Coarse | Number::Lanes { .. } => None,
+        }
+    }
+}
+
+/// What is timed from buffers that stay in the cache.
+enum Job<'a> {
+    Shade(&'a Runner),
+    Sample(&'a Sampler),
+}
+
 fn each<R: Scalar>(brdf: &AnyBrdf<R>, l: &[Vec<f32>; 3], v: &[Vec<f32>; 3], to: impl Fn(R) -> f64) -> Vec<[f64; 3]> {
     let at = |w: &[Vec<f32>; 3], i: usize| Vec3::new(w[0][i], w[1][i], w[2][i]).map(|c| R::from_f64(f64::from(c)));
     (0..l[0].len()).map(|i| <[R; 3]>::from(brdf.eval_cos(at(l, i), at(v, i))).map(&to)).collect()
@@ -309,6 +372,7 @@ pub struct Bench {
     f64: Buffers<f64>,
     fast: Buffers<Approximate<f32, Fast>>,
     coarse: Buffers<Approximate<f32, Coarse>>,
+    draws: (Vec<Draws<f32>>, Vec<Draws<f64>>),
     pairs: ([Vec<f32>; 3], [Vec<f32>; 3]),
     quadrature: Quadrature,
     sphere: Sphere,
@@ -337,6 +401,7 @@ impl Bench {
             f64: Buffers::new(&pairs, effort.stream),
             fast: Buffers::new(&pairs, effort.stream),
             coarse: Buffers::new(&pairs, effort.stream),
+            draws: (Draws::all(&pairs), Draws::all(&pairs)),
             pairs: (columns(|pair| pair.0), columns(|pair| pair.1)),
             quadrature: Quadrature::new(),
             sphere: Sphere::new(effort.sphere),
@@ -360,17 +425,25 @@ impl Bench {
             .iter()
             .flat_map(|form| numbers.iter().map(move |&number| (form, number, Runner::new(&form.material, number))))
             .collect();
+        let samplers: Vec<_> = runs.iter().map(|(form, number, _)| Sampler::new(&form.material, *number)).collect();
+        // Samples in turn with evaluations, so that both can be compared.
+        let jobs: Vec<_> = runs.iter().map(|(.., runner)| Job::Shade(runner)).collect();
+        let jobs: Vec<_> = jobs.into_iter().chain(samplers.iter().flatten().map(Job::Sample)).collect();
+        let mut resident = self.time(&jobs, Self::resident, self.effort.rounds, self.effort.block);
+        let mut samples = resident.split_off(runs.len()).into_iter();
+        let samples = samplers.iter().map(|sampler| sampler.as_ref().and_then(|_| samples.next()));
         let runners: Vec<_> = runs.iter().map(|(.., runner)| runner).collect();
-        let resident = self.time(&runners, Self::resident, self.effort.rounds, self.effort.block);
-        let streaming = self.time(&runners, Self::streaming, self.effort.stream_rounds, Duration::ZERO);
-        let times = resident.into_iter().zip(streaming);
+        let streaming =
+            self.time(&runners, |bench, runner| bench.streaming(runner), self.effort.stream_rounds, Duration::ZERO);
+        let times = resident.into_iter().zip(streaming).zip(samples);
         runs.iter()
             .zip(times)
-            .map(|((form, number, runner), (resident, streaming))| Row {
+            .map(|((form, number, runner), ((resident, streaming), sample))| Row {
                 subject: subject.name.clone(),
                 form: form.name.clone(),
                 number: *number,
                 resident,
+                sample,
                 streaming,
                 all_cores: self.all_cores(runner),
                 code: self.code.as_ref().ok().and_then(|code| code.bytes(&form.material, *number)),
@@ -382,11 +455,16 @@ impl Bench {
     }
 
     /// The resident buffers once; how many points they have.
-    fn resident(&mut self, runner: &Runner) -> usize {
-        fn all<R: Scalar>(points: &mut [Points<R>], shade: impl Fn(&mut Points<R>)) -> usize {
-            points.iter_mut().for_each(shade);
+    fn resident(&mut self, job: &Job<'_>) -> usize {
+        fn all<P>(points: &mut [P], work: impl Fn(&mut P)) -> usize {
+            points.iter_mut().for_each(work);
             BUFFERS * POINTS
         }
+        let runner = match job {
+            Job::Shade(runner) => runner,
+            Job::Sample(Sampler::F32(sampler)) => return all(&mut self.draws.0, |draws| draws.sample(sampler)),
+            Job::Sample(Sampler::F64(sampler)) => return all(&mut self.draws.1, |draws| draws.sample(sampler)),
+        };
         match runner {
             Runner::F32(brdf) => all(&mut self.f32.resident, |points| points.shade(brdf)),
             Runner::F64(brdf) => all(&mut self.f64.resident, |points| points.shade(brdf)),
@@ -415,31 +493,31 @@ impl Bench {
         }
     }
 
-    /// Nanoseconds for a point of each runner, in turn: what disturbs the machine for a while disturbs all alike.
-    fn time(
+    /// Nanoseconds for a point of each job, in turn: what disturbs the machine for a while disturbs all alike.
+    fn time<J>(
         &mut self,
-        runners: &[&Runner],
-        pass: fn(&mut Self, &Runner) -> usize,
+        jobs: &[J],
+        pass: impl Fn(&mut Self, &J) -> usize,
         rounds: usize,
         block: Duration,
     ) -> Vec<Quartiles> {
         // The first pass warms up, and says how many make a block.
-        let passes: Vec<u32> = runners
+        let passes: Vec<u32> = jobs
             .iter()
-            .map(|runner| {
+            .map(|job| {
                 let start = Instant::now();
-                pass(self, runner);
+                pass(self, job);
                 let once = start.elapsed().as_secs_f64().max(1e-9);
                 (block.as_secs_f64() / once).ceil().max(1.0) as u32
             })
             .collect();
-        let mut times = vec![Vec::with_capacity(rounds); runners.len()];
+        let mut times = vec![Vec::with_capacity(rounds); jobs.len()];
         for round in 0..rounds {
-            for k in 0..runners.len() {
-                let index = (k + round) % runners.len();
+            for k in 0..jobs.len() {
+                let index = (k + round) % jobs.len();
                 let (start, mut points) = (Instant::now(), 0);
                 for _ in 0..passes[index] {
-                    points += pass(self, runners[index]);
+                    points += pass(self, &jobs[index]);
                 }
                 times[index].push(start.elapsed().as_secs_f64() * 1e9 / points as f64);
             }
@@ -591,14 +669,19 @@ impl Quadrature {
     }
 }
 
-/// Pairs of directions above the horizon; every other one near the mirror direction of its viewer. Numbers of `f32`.
-fn pairs(count: usize) -> Vec<Pair> {
-    let mut bits = 1_u32;
-    let mut random = move || {
+/// Numbers of `[0, 1)` in 24 bits.
+fn random(seed: u32) -> impl FnMut() -> f64 {
+    let mut bits = seed;
+    move || {
         // Numerical Recipes' generator; its high bits will do.
         bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         f64::from(bits >> 8) / f64::from(1 << 24)
-    };
+    }
+}
+
+/// Pairs of directions above the horizon; every other one near the mirror direction of its viewer. Numbers of `f32`.
+fn pairs(count: usize) -> Vec<Pair> {
+    let mut random = random(1);
     let unit = |z: f64, phi: f64| {
         let r = (1.0 - z * z).max(0.0).sqrt();
         Vec3::new(r * phi.cos(), r * phi.sin(), z)
@@ -652,6 +735,33 @@ mod tests {
         let hammon = rows.iter().find(|row| row.form == "Hammon for Smith").expect("a row");
         assert!(hammon.error.worst > 0.1 && hammon.error.worst < 0.4 && hammon.seen.steps > 1, "{hammon:?}");
         assert!(rows.iter().all(|row| row.resident.median > 0.0 && row.streaming.median > 0.0 && row.all_cores > 0.0));
+        for row in &rows {
+            let sampled = matches!(row.number, Number::F32 | Number::F64);
+            assert!(row.sample.is_some() == sampled && row.sample.is_none_or(|ns| ns.median > 0.0), "{row:?}");
+        }
+    }
+
+    /// What is timed is what the sampler of the material gives, of viewers and numbers that differ from point to point.
+    #[test]
+    fn a_pass_over_the_draws_samples_each_point() {
+        let material = preset("ggx-gold").expect("there is one");
+        let mut bench = Bench::new(Effort::quick());
+        let sampler = Sampler::new(&material, Number::F32).expect("f32 has one");
+        assert_eq!(bench.resident(&Job::Sample(&sampler)), BUFFERS * POINTS);
+        let (sampler, draws) = (material.sampler::<f32>(), &bench.draws.0);
+        assert_eq!(draws.len(), BUFFERS);
+        let mut directions = Vec::new();
+        for Draws { v, u, out } in draws {
+            assert_eq!(out.len(), POINTS);
+            for (i, &(l, weight, pdf)) in out.iter().enumerate() {
+                let one = sampler.sample(Vec3::new(v[0][i], v[1][i], v[2][i]), [u[0][i], u[1][i], u[2][i]]);
+                assert_eq!((l, weight, pdf), (one.l, one.weight, one.pdf));
+                directions.push([l.x, l.y, l.z].map(f32::to_bits));
+            }
+        }
+        directions.sort_unstable();
+        directions.dedup();
+        assert!(directions.len() > BUFFERS * POINTS * 9 / 10, "{}", directions.len());
     }
 
     /// What the quadrature gives is the albedo: of a white Lambert 1.

@@ -1,9 +1,9 @@
 //! Facets in proportion to their projected area, `D (n·h)`, for every distribution.
 
 use super::{Bounded, Facets, VisibleSlopes};
-use crate::map::cosine_hemisphere;
+use crate::map::{azimuth, cosine_hemisphere};
 use crate::special::{exp_m1, ln_1p};
-use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use core::f64::consts::{FRAC_PI_2, PI};
 use lobe::distribution::{
     Beckmann, Distribution, Gaussian, Ggx, GgxAnisotropic, Gtr, PhongPower, SmithTable, StudentT, Tabulated,
 };
@@ -63,7 +63,7 @@ fn of_slopes<R: Real>(x: R, y: R) -> Vec3<R> {
 /// The direction at the azimuth `2π x` of an ellipse with the half axes `αx`, `αy`: its points, and its square radius there.
 #[inline(always)]
 fn ellipse<R: Real>((x, y): (Alpha<R>, Alpha<R>), turn: R) -> (R, R, R) {
-    let (sin, cos) = turn.times(TAU).sin_cos();
+    let (sin, cos) = azimuth(turn);
     let (x, y) = (x.0 * cos, y.0 * sin);
     (x, y, x.squared() + y.squared())
 }
@@ -283,7 +283,7 @@ impl<R: Real, const N: usize> SampleNormals<R> for Tabulated<R, N> {
                 below = below + height.times(length);
             },
         );
-        let (sin, cos) = turn.times(TAU).sin_cos();
+        let (sin, cos) = azimuth(turn);
         let r = sin2.sqrt();
         // A NaN in the azimuth shows by itself; one in `u` has selected nothing.
         let nan = u.times(0.0);

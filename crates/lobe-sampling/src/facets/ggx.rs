@@ -1,8 +1,7 @@
 //! GGX by visible normals: the distribution of the normals of an ellipsoid is that of a sphere, stretched (Heitz 2018).
 
 use super::Facets;
-use crate::map::concentric_disc;
-use core::f64::consts::TAU;
+use crate::map::{azimuth, concentric_disc};
 use lobe::distribution::{Ggx, GgxAnisotropic, SmithLambda};
 use lobe::{Facet, Real, Vec3};
 
@@ -49,24 +48,35 @@ pub struct Caps;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bounded;
 
-/// The direction in which the stretched sphere is seen.
+/// A point of the sphere in the space of the ellipsoid, or the other way.
 #[inline(always)]
-fn stretched<R: Real>(distribution: &impl StretchedSphere<R>, v: Vec3<R>) -> Vec3<R> {
+fn stretched<R: Real>(distribution: &impl StretchedSphere<R>, m: Vec3<R>) -> Vec3<R> {
     let (x, y) = distribution.widths();
-    Vec3::new(v.x * x, v.y * y, v.z).normalize()
+    Vec3::new(m.x * x, m.y * y, m.z)
 }
 
-/// The facet of a normal of the sphere, of any length.
-#[inline(always)]
-fn facet<R: Real>(distribution: &impl StretchedSphere<R>, m: Vec3<R>) -> Vec3<R> {
-    let (x, y) = distribution.widths();
-    Vec3::new(m.x * x, m.y * y, m.z).normalize()
+/// The facets of a stretched sphere are known by their normals of any length: to mirror at one takes no root.
+macro_rules! facets_of_any_length {
+    () => {
+        #[inline(always)]
+        fn normal(&self, distribution: &D, v: Vec3<R>, u: [R; 2]) -> Vec3<R> {
+            self.facet(distribution, v, u).normalize()
+        }
+
+        /// `2 (m·v)/(m·m) m − v`.
+        #[inline(always)]
+        fn light(&self, distribution: &D, v: Vec3<R>, u: [R; 2]) -> Vec3<R> {
+            let m = self.facet(distribution, v, u);
+            m * (m.dot(v).times(2.0) / m.length_squared()) - v
+        }
+    };
 }
 
-impl<R: Real, D: StretchedSphere<R>> Facets<R, D> for ProjectedDisc {
+impl ProjectedDisc {
+    /// The normal of a facet, times [`Real::ROOT_SCALE`] and about as long.
     #[inline(always)]
-    fn normal(&self, distribution: &D, v: Vec3<R>, u: [R; 2]) -> Vec3<R> {
-        let w = stretched(distribution, v);
+    fn facet<R: Real>(self, distribution: &impl StretchedSphere<R>, v: Vec3<R>, u: [R; 2]) -> Vec3<R> {
+        let w = stretched(distribution, v).normalize();
         let (zero, one) = (w.z.lift(0.0), w.z.lift(1.0));
         let across = w.x.squared() + w.y.squared();
         // Seen along the normal every axis is as good as any other; 0/0 would be NaN.
@@ -82,8 +92,12 @@ impl<R: Real, D: StretchedSphere<R>> Facets<R, D> for ProjectedDisc {
         let y = (one - seen) * chord2.max(zero).sqrt() + seen * y;
         let rest = (chord2 - y.squared()).max(zero).sqrt();
         let m = first * x + second * y + w * rest;
-        facet(distribution, Vec3::new(m.x, m.y, m.z.max(zero)))
+        stretched(distribution, Vec3::new(m.x, m.y, m.z.max(zero)) * one.times(R::ROOT_SCALE))
     }
+}
+
+impl<R: Real, D: StretchedSphere<R>> Facets<R, D> for ProjectedDisc {
+    facets_of_any_length!();
 
     #[inline(always)]
     fn area(&self, distribution: &D, v: Vec3<R>, _: &Facet<R>) -> R {
@@ -91,27 +105,36 @@ impl<R: Real, D: StretchedSphere<R>> Facets<R, D> for ProjectedDisc {
     }
 }
 
-/// The facet of the cap `z ≥ −bound` that mirrors to `w`, with `above = z_w − bound`.
+/// The normal of the facet of the cap `z ≥ −bound` that mirrors to `v`, with `above = v.z − bound`.
 ///
-/// `z = (1 − y)(1 + bound) − bound`; `1 − z² = t (2 − t)` with `t = 1 − z = y (1 + bound)`. The sum with `w` has
-/// `z + z_w = (1 − y)(1 + bound) + above`: positive terms, so that facets near the horizon keep their digits.
+/// In the space of the sphere `v` has the length `t`, and the cap is taken of a sphere of that radius: so nothing is divided by `t`.
+/// `z = (1 − y)(t + bound) − bound`; `t² − z² = d (2 t − d)` with `d = t − z = y (t + bound)`. The sum with `v` has
+/// `z + v.z = (1 − y)(t + bound) + above`: positive terms, so that facets near the horizon keep their digits. All times
+/// [`Real::ROOT_SCALE`]: for widths and cosines of 1e-15 the squares of these lengths would leave the range of `f32` (test
+/// `the_narrowest_facets_keep_their_digits`).
 #[inline(always)]
-fn of_cap<R: Real>(distribution: &impl StretchedSphere<R>, w: Vec3<R>, bound: R, above: R, [x, y]: [R; 2]) -> Vec3<R> {
-    let one = w.z.lift(1.0);
-    let (sin, cos) = x.times(TAU).sin_cos();
-    let depth = y * bound.plus(1.0);
+fn of_cap<R: Real>(distribution: &impl StretchedSphere<R>, v: Vec3<R>, bound: R, above: R, [x, y]: [R; 2]) -> Vec3<R> {
+    let (one, scale) = (v.z.lift(1.0), v.z.lift(R::ROOT_SCALE));
+    let t = distribution.facing_either_way(v) * scale;
+    let (sin, cos) = azimuth(x);
+    let height = bound.mul_add(scale, t);
+    let depth = y * height;
     // Rounding may take it below 0 where the cap is the whole sphere.
-    let radius = (depth * (depth.lift(2.0) - depth)).max(w.z.lift(0.0)).sqrt();
-    let z = (one - y) * bound.plus(1.0) + above;
-    facet(distribution, Vec3::new(w.x + radius * cos, w.y + radius * sin, z))
+    let radius = (depth * (t.times(2.0) - depth)).max(v.z.lift(0.0)).sqrt();
+    let z = (one - y).mul_add(height, above * scale);
+    let w = stretched(distribution, v * scale);
+    stretched(distribution, Vec3::new(radius.mul_add(cos, w.x), radius.mul_add(sin, w.y), z))
+}
+
+impl Caps {
+    #[inline(always)]
+    fn facet<R: Real>(self, distribution: &impl StretchedSphere<R>, v: Vec3<R>, u: [R; 2]) -> Vec3<R> {
+        of_cap(distribution, v, v.z, v.z.lift(0.0), u)
+    }
 }
 
 impl<R: Real, D: StretchedSphere<R>> Facets<R, D> for Caps {
-    #[inline(always)]
-    fn normal(&self, distribution: &D, v: Vec3<R>, u: [R; 2]) -> Vec3<R> {
-        let w = stretched(distribution, v);
-        of_cap(distribution, w, w.z, w.z.lift(0.0), u)
-    }
+    facets_of_any_length!();
 
     #[inline(always)]
     fn area(&self, distribution: &D, v: Vec3<R>, _: &Facet<R>) -> R {
@@ -132,17 +155,43 @@ fn bound<R: Real>(distribution: &impl StretchedSphere<R>, v: Vec3<R>) -> (R, R) 
     ((one - a) * (one + a) * s2 * scale, a2 * (s2 + z2) * scale)
 }
 
-impl<R: Real, D: StretchedSphere<R>> Facets<R, D> for Bounded {
+impl Bounded {
     #[inline(always)]
-    fn normal(&self, distribution: &D, v: Vec3<R>, u: [R; 2]) -> Vec3<R> {
-        let w = stretched(distribution, v);
+    fn facet<R: Real>(self, distribution: &impl StretchedSphere<R>, v: Vec3<R>, u: [R; 2]) -> Vec3<R> {
         let (k, rest) = bound(distribution, v);
-        of_cap(distribution, w, k * w.z, rest * w.z, u)
+        of_cap(distribution, v, k * v.z, rest * v.z, u)
     }
+}
+
+impl<R: Real, D: StretchedSphere<R>> Facets<R, D> for Bounded {
+    facets_of_any_length!();
 
     #[inline(always)]
     fn area(&self, distribution: &D, v: Vec3<R>, _: &Facet<R>) -> R {
         let (k, _) = bound(distribution, v);
         (k * v.z + distribution.facing_either_way(v)).times(2.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lobe::Alpha;
+
+    #[test]
+    fn the_narrowest_facets_keep_their_digits() {
+        let (alpha, v) = (1e-15_f32, Vec3::new(1.0_f32, 0.0, 1e-15));
+        for u in [[0.3_f32, 0.5], [0.3, 0.999], [0.3, 1.0 - f32::EPSILON / 2.0], [0.8, 1.0 - f32::EPSILON / 2.0]] {
+            for method in [true, false] {
+                let (single, double) = (Ggx::new(Alpha(alpha)), Ggx::new(Alpha(f64::from(alpha))));
+                let (v64, u64) = (v.map(f64::from), u.map(f64::from));
+                let (found, exact) = if method {
+                    (Bounded.light(&single, v, u), Bounded.light(&double, v64, u64))
+                } else {
+                    (Caps.light(&single, v, u), Caps.light(&double, v64, u64))
+                };
+                assert!((f64::from(found.z) / exact.z - 1.0).abs() < 1e-5, "{u:?}: {found:?} {exact:?}");
+            }
+        }
     }
 }

@@ -28,6 +28,13 @@ pub trait Facets<R: Real, D> {
     /// The unit normal of a facet for a viewer above the horizon, `v.z ≥ 0`, from two numbers of `[0, 1)`.
     fn normal(&self, distribution: &D, v: Vec3<R>, u: [R; 2]) -> Vec3<R>;
 
+    /// The light that such a facet mirrors to `v`: `2 (h·v) h − v`.
+    #[inline(always)]
+    fn light(&self, distribution: &D, v: Vec3<R>, u: [R; 2]) -> Vec3<R> {
+        let h = self.normal(distribution, v, u);
+        h * h.dot(v).times(2.0) - v
+    }
+
     /// `D(h)/pdf(l)`, for the facet between `l` and `v`.
     ///
     /// It may be 0 where `D` is, and is infinite or not a number below the horizon.
