@@ -3,7 +3,7 @@
 use crate::facets::{Facets, SampleNormals};
 use crate::map::{cosine_hemisphere, cosine_hemisphere_pdf};
 use crate::mixture::{Part, blend, one_of_two, probability};
-use crate::rules::{above, incidence_of, nan_of, upwards};
+use crate::rules::{above, by_facet, incidence_of, nan_of, upwards};
 use crate::{Sample, Sampled};
 use core::f64::consts::FRAC_1_PI;
 use lobe::distribution::Distribution;
@@ -102,8 +102,7 @@ impl<R: Real> Specular<R> {
 #[inline(always)]
 pub(crate) fn mirrored<R: Real, D, M: Facets<R, D>>(distribution: &D, method: &M, v: Vec3<R>, u: [R; 2]) -> Vec3<R> {
     let v = upwards(v);
-    let h = method.normal(distribution, v, u);
-    h * h.dot(v).times(2.0) - v
+    by_facet(method.normal(distribution, v, u), v)
 }
 
 /// A grey lobe of facets without Fresnel's term, as one part of a mixture.
