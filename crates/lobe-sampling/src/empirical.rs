@@ -1,12 +1,15 @@
 //! Lobes that were fitted to measurements or derived from wave optics: two by their own profile, two by facets that
 //! cover them.
 
-use crate::draw::{Draw, by_facet, exp_m1_by, ln_1p_by, sample_by_drawing, scaled_sum, tilted};
+use crate::draw::{Draw, sample_by_drawing, scaled_sum, tilted};
+use crate::facets::{Caps, Facets};
 use crate::map::azimuth;
+use crate::rules::by_facet;
+use crate::special::{exp_m1_by, ln_1p_by};
 use core::f64::consts::{FRAC_1_PI, LOG2_E, PI};
-use lobe::distribution::{Distribution, Ggx, SmithLambda};
+use lobe::distribution::{Distribution, Ggx};
 use lobe::fresnel::{Dielectric, Fresnel, Incidence};
-use lobe::{Alpha, Brdf, HeTorrance, LowMicrofacet, LowSmooth, Real, Rgb, ShiftedGamma, Vec3};
+use lobe::{Alpha, Brdf, Facet, HeTorrance, LowMicrofacet, LowSmooth, Real, Rgb, ShiftedGamma, Vec3};
 
 /// The profile `(1 + B x)^(−C)` over `x` from 0 to an end, and its way back: `∫ = (((1 + B x)^(1−C) − 1)/(B (1 − C))`,
 /// whose limits `C → 1`, a logarithm, and `B → 0`, `x` itself, come out of quotients that are smooth there.
@@ -128,50 +131,34 @@ impl<R: Real> Draw<R> for LowMicrofacet<R> {
     }
 }
 
-/// The light by the facets of GGX that a viewer sees: a density that covers a lobe of about this width, and has a tail
-/// beyond it.
-struct Facets<R>(Ggx<R>);
+/// GGX whose visible facets cover a lobe of about this width, and have a tail beyond it. The width is kept in the domain
+/// of `α`: below, the density leaves the range, and above 1 facets are not of use.
+#[inline(always)]
+fn facets<R: Real>(alpha: R) -> Ggx<R> {
+    Ggx::new(Alpha(alpha.max(alpha.lift(1e-4)).min(alpha.lift(1.0))))
+}
 
-impl<R: Real> Facets<R> {
-    /// The width is kept in the domain of `α`: below, the density leaves the range, and above 1 facets are not of use.
-    #[inline(always)]
-    fn new(alpha: R) -> Self {
-        Self(Ggx::new(Alpha(alpha.max(alpha.lift(1e-4)).min(alpha.lift(1.0)))))
-    }
+/// The light by those facets.
+#[inline(always)]
+fn by_facets<R: Real>(facets: &Ggx<R>, v: Vec3<R>, x: R, y: R) -> Vec3<R> {
+    crate::microfacet::mirrored(facets, &Caps, v, [y, x])
+}
 
-    /// Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023: where the ellipsoid is the unit
-    /// sphere, the facet is halfway between the viewer and an even point of the cap of `z > −v.z`.
-    #[inline(always)]
-    fn direction(&self, v: Vec3<R>, x: R, y: R) -> Vec3<R> {
-        let alpha = self.0.alpha().0;
-        // Of a viewer below the horizon, whose sample is rejected, the one above: straight from below no facet is seen,
-        // and its normal would be 0/0.
-        let w = Vec3::new(v.x * alpha, v.y * alpha, v.z.abs()).normalize();
-        let (sin_phi, cos_phi) = azimuth(y);
-        // z = (1 − x)(1 + w.z) − w.z, and z + w.z, 1 − z and 1 + z without the difference.
-        let cap = w.z.plus(1.0);
-        let up = (x.lift(1.0) - x) * cap;
-        let sin = (cap * x * (up + (x.lift(1.0) - w.z))).sqrt();
-        let h = Vec3::new((sin * cos_phi + w.x) * alpha, (sin * sin_phi + w.y) * alpha, up);
-        by_facet(h.normalize(), v)
-    }
-
-    /// `D/(4 (1 + Λ(v)) (n·v))`.
-    #[inline(always)]
-    fn density(&self, s: Vec3<R>, length2: R, v: Vec3<R>) -> R {
-        self.0.d_along(s, length2) / self.0.facing(v).times(4.0)
-    }
+/// Its density.
+#[inline(always)]
+fn density_by_facets<R: Real>(facets: &Ggx<R>, v: Vec3<R>, facet: &Facet<R>) -> R {
+    Caps.pdf(facets, v, facet, facets.d(facet.normal()))
 }
 
 /// The width of the lobe in half vectors, `α² = (2σ/τ)² + w²`: of the slopes where the surface is rough; where it is
 /// smooth, of the deviation `1/(πτ)` that diffraction gives, by the sum of the cosines, of which that of the light is
 /// about `√((n·v)² + 1/(πτ))`.
 #[inline(always)]
-fn he<R: Real>(lobe: &HeTorrance<R>, v: Vec3<R>) -> Facets<R> {
+fn he<R: Real>(lobe: &HeTorrance<R>, v: Vec3<R>) -> Ggx<R> {
     let deviation = lobe.tau().times(PI).recip();
     let smooth = deviation / (v.z + (v.z.squared() + deviation).sqrt());
     let rough = (lobe.sigma() / lobe.tau()).times(2.0);
-    Facets::new((smooth.squared() + rough.squared()).sqrt())
+    facets((smooth.squared() + rough.squared()).sqrt())
 }
 
 /// By the visible facets of a GGX as wide as the lobe. The weight is `f_r (n·l)/pdf`.
@@ -182,12 +169,11 @@ fn he<R: Real>(lobe: &HeTorrance<R>, v: Vec3<R>) -> Facets<R> {
 impl<R: Real> Draw<R> for HeTorrance<R> {
     #[inline(always)]
     fn direction(&self, v: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
-        he(self, v).direction(v, x, y)
+        by_facets(&he(self, v), v, x, y)
     }
     #[inline(always)]
     fn density(&self, l: Vec3<R>, v: Vec3<R>) -> R {
-        let (s, length) = scaled_sum(l, v);
-        he(self, v).density(s, length.squared(), v)
+        density_by_facets(&he(self, v), v, &Facet::between(l, v))
     }
     #[inline(always)]
     fn weight(&self, l: Vec3<R>, v: Vec3<R>, pdf: R) -> Rgb<R> {
@@ -232,15 +218,14 @@ impl<R: Real> Draw<R> for ShiftedGamma<R> {
             alpha = R::select(choice.lt(choice.lift(from)), alpha, width);
             from += part;
         }
-        Facets::new(alpha).direction(v, x, y)
+        by_facets(&facets(alpha), v, x, y)
     }
     #[inline(always)]
     fn density(&self, l: Vec3<R>, v: Vec3<R>) -> R {
-        let (s, length) = scaled_sum(l, v);
-        let length2 = length.squared();
+        let facet = Facet::between(l, v);
         let mut sum = l.z.lift(0.0);
         for (width, part) in gamma(self) {
-            sum = sum + Facets::new(width).density(s, length2, v).times(part);
+            sum = sum + density_by_facets(&facets(width), v, &facet).times(part);
         }
         sum
     }

@@ -5,10 +5,10 @@
 //! last place of the direction moves it by `√q u` and more down the lobe, but the weight, from which the lobe has
 //! cancelled, by `u`.
 
-use crate::draw::{
-    Draw, by_facet, exp_m1_by, ln_complement, mirrored, sample_by_drawing, scaled_sum, tilted, times_pi,
-};
+use crate::draw::{Draw, mirrored, sample_by_drawing, scaled_sum, tilted, times_pi};
 use crate::map::{azimuth, cosine_hemisphere};
+use crate::rules::by_facet;
+use crate::special::{exp_m1, ln_complement};
 use core::f64::consts::{FRAC_1_PI, PI, TAU};
 use lobe::fresnel::{Fresnel, Incidence, Schlick};
 use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
@@ -26,8 +26,7 @@ fn power_hemisphere<R: Real>(q: R, x: R, y: R) -> Vec3<R> {
 /// `1 − e^(log share)`, at least 0.
 #[inline(always)]
 fn fall<R: Real>(log: R, share: R) -> R {
-    let x = log * share;
-    -(x * exp_m1_by(x))
+    -exp_m1(log * share)
 }
 
 /// The same around another axis.

@@ -1,4 +1,4 @@
-//! What all samplers have in common: the horizon, and a NaN that must show.
+//! What all samplers have in common: the horizon, a NaN that must show, the light of a facet.
 
 use lobe::fresnel::Incidence;
 use lobe::{Real, Vec3};
@@ -26,4 +26,11 @@ pub(crate) fn upwards<R: Real>(v: Vec3<R>) -> Vec3<R> {
 #[inline(always)]
 pub(crate) fn incidence_of<R: Real>(v: Vec3<R>) -> Incidence<R> {
     Incidence::of(Vec3::new(v.x, v.y, v.z.abs().min(v.z.lift(1.0))))
+}
+
+/// The direction of light for a facet of the unit normal `h`: `2 (v·h) h − v`. Above the horizon only for `v·h > 0`, if
+/// `h` is.
+#[inline(always)]
+pub(crate) fn by_facet<R: Real>(h: Vec3<R>, v: Vec3<R>) -> Vec3<R> {
+    h * h.dot(v).times(2.0) - v
 }

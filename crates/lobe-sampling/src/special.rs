@@ -3,25 +3,37 @@
 use core::f64::consts::LN_2;
 use lobe::Real;
 
-/// `eˣ − 1`, to some units in the last place for small `x` too.
-///
-/// `(u − 1) x/ln u` with `u = eˣ`: what the exponential has rounded off is in both, and cancels (Kahan).
+/// `ln(1 − x)`, not above 0.
 #[inline(always)]
-pub(crate) fn exp_m1<R: Real>(x: R) -> R {
-    let u = x.exp();
-    let one = u.lift(1.0);
-    let rest = u - one;
-    // From 4 on nothing cancels, and towards the end of the range the quotient would be ∞/∞. Below −4 likewise.
-    let far = x.abs().gt(x.lift(4.0));
-    let log = rest.log2_1p().times(LN_2);
-    let safe = R::select(log.eq(log.lift(0.0)) | far, one, log);
-    R::select(far, rest, R::select(u.eq(one), x, rest * (x / safe)))
+pub(crate) fn ln_complement<R: Real>(x: R) -> R {
+    (-x).log2_1p().times(LN_2)
 }
 
-/// `ln(1 + x)`.
+/// `(e^x − 1)/x`, 1 at 0: by Taylor's series between −1/2 and 1/2, within `4u`.
 #[inline(always)]
-pub(crate) fn ln_1p<R: Real>(x: R) -> R {
-    x.log2_1p().times(LN_2)
+pub(crate) fn exp_m1_by<R: Real>(x: R) -> R {
+    let one = x.lift(1.0);
+    let mut series = one;
+    // Thirteen terms leave 1e-15 at 1/2.
+    for n in (2..=13).rev() {
+        series = series * x.times(1.0 / f64::from(n)) + one;
+    }
+    let small = x.abs().lt(x.lift(0.5));
+    R::select(small, series, x.exp().plus(-1.0) / R::select(small, one, x))
+}
+
+/// `ln(1 + x)/x` for `x > −1`, 1 at 0.
+#[inline(always)]
+pub(crate) fn ln_1p_by<R: Real>(x: R) -> R {
+    let (one, flat) = (x.lift(1.0), x.eq(x.lift(0.0)));
+    let safe = R::select(flat, one, x);
+    R::select(flat, one, safe.log2_1p().times(LN_2) / safe)
+}
+
+/// `eˣ − 1`, to some units in the last place for small `x` too.
+#[inline(always)]
+pub(crate) fn exp_m1<R: Real>(x: R) -> R {
+    x * exp_m1_by(x)
 }
 
 /// The inverse of the error function, for arguments whose magnitude is below 1; in `f32` and `f64` within 5e-7 of it.
@@ -64,6 +76,20 @@ const FAR: [f64; 9] = [
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_quotients_are_smooth_through_zero() {
+        for x in [-30.0_f64, -0.6, -0.5, -0.49, -1e-9, 0.0, 1e-300, 0.3, 0.499, 0.5, 3.0] {
+            let exact = if x == 0.0 { 1.0 } else { x.exp_m1() / x };
+            assert!((exp_m1_by(x) / exact - 1.0).abs() < 2e-15, "{x}");
+            let single = f64::from(exp_m1_by(x as f32));
+            assert!((single / exact - 1.0).abs() < 4e-7, "{x}: {single}");
+        }
+        for x in [-0.999_f64, -0.5, -1e-9, 0.0, 1e-300, 0.3, 1e7] {
+            let exact = if x == 0.0 { 1.0 } else { x.ln_1p() / x };
+            assert!((ln_1p_by(x) / exact - 1.0).abs() < 2e-15, "{x}");
+        }
+    }
 
     #[test]
     fn exp_m1_keeps_its_digits() {

@@ -75,6 +75,10 @@ fn others<R: Real + 'static>(w: R) -> Vec<Named<R>> {
     let ggx = Microfacet::new(Ggx::new(Alpha(w.lift(0.6))), SmithCorrelated, f);
     vec![
         ("tabulated".into(), Box::new(Microfacet::new(drawn(w), VCavity, f))),
+        ("tabulated, smith".into(), {
+            let table = SmithTable::<_, R, 64>::new(drawn(w), Alpha(w.lift(0.5)));
+            Box::new(Microfacet::new(table, SmithSeparable, f))
+        }),
         ("flat table".into(), Box::new(Microfacet::new(Tabulated::new([w.lift(3.0); 3]), VCavity, f))),
         ("ggx by cosine".into(), Box::new(ByCosine(ggx))),
     ]
@@ -87,7 +91,7 @@ fn densities_are_normalised() {
     let views = [at(1.0, 0.0), at(0.7, 0.4), at(0.2, 2.0)];
     for (name, lobe) in others(0.0) {
         for v in views {
-            if name == "tabulated" {
+            if name.starts_with("tabulated") {
                 stepped_density_is_normalised(&name, &*lobe, v);
             } else {
                 density_is_normalised(&name, &*lobe, v);

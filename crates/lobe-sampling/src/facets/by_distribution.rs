@@ -2,7 +2,7 @@
 
 use super::{Bounded, Facets, VisibleSlopes};
 use crate::map::{azimuth, cosine_hemisphere};
-use crate::special::{exp_m1, ln_1p};
+use crate::special::{exp_m1, exp_m1_by, ln_1p_by, ln_complement};
 use core::f64::consts::{FRAC_PI_2, PI};
 use lobe::distribution::{
     Beckmann, Distribution, Gaussian, Ggx, GgxAnisotropic, Gtr, PhongPower, SmithTable, StudentT, Tabulated,
@@ -71,7 +71,7 @@ fn ellipse<R: Real>((x, y): (Alpha<R>, Alpha<R>), turn: R) -> (R, R, R) {
 /// `−ln(1 − u)`: 0 at 0, and 16.6 at the last `f32` before 1.
 #[inline(always)]
 fn exponential<R: Real>(u: R) -> R {
-    -ln_1p(-u)
+    -ln_complement(u)
 }
 
 impl<R: Real> SampleNormals<R> for Ggx<R> {
@@ -149,8 +149,7 @@ fn gtr_terms<R: Real>(a2: R, gamma: R) -> R {
     // 1 − A is exact from 1/2 on, and there the logarithm of a number near 1 is to its last digits.
     let log = -a2.ln();
     let x = -(gamma.plus(-1.0) * log);
-    let safe = R::select(x.eq(x.lift(0.0)), x.lift(1.0), x);
-    log * R::select(x.eq(x.lift(0.0)), x.lift(1.0), exp_m1(x) / safe)
+    log * exp_m1_by(x)
 }
 
 impl<R: Real> SampleNormals<R> for Gtr<R> {
@@ -162,11 +161,10 @@ impl<R: Real> SampleNormals<R> for Gtr<R> {
     #[inline(always)]
     fn sample_normal(&self, [turn, u]: [R; 2]) -> Vec3<R> {
         let (ax, ay, a2) = ellipse(self.alpha(), turn);
-        let (zero, one) = (a2.lift(0.0), a2.lift(1.0));
+        let one = a2.lift(1.0);
         let w = u * gtr_terms(a2, self.gamma());
         let x = -(self.gamma().plus(-1.0) * w);
-        let safe = R::select(x.eq(zero), one, x);
-        let log = w * R::select(x.eq(zero), one, ln_1p(x) / safe);
+        let log = w * ln_1p_by(x);
         // At α = 1 the facets are as even as the cosine.
         let round = a2.eq(one);
         let sin2 = R::select(round, u, exp_m1(log) * (a2 / R::select(round, one, one - a2)));
@@ -318,5 +316,11 @@ impl<R: Real, D: SampleNormals<R>, const N: usize> SampleNormals<R> for SmithTab
     #[inline(always)]
     fn normal_area(&self, h: Vec3<R>) -> R {
         self.distribution().normal_area(h)
+    }
+    /// That of the distribution: of one that is drawn where `D` is 0 the area is 0 there, and the quotient 0/0 (lobe `tabulated,
+    /// smith` of the tests).
+    #[inline(always)]
+    fn normal_pdf(&self, h: Vec3<R>, d: R) -> R {
+        self.distribution().normal_pdf(h, d)
     }
 }

@@ -124,11 +124,12 @@ pub(crate) fn agrees_with_quadrature(case: &Case, views: &[f64]) {
                 mean.add(moment);
             }
         }
-        // More points for a mass, whose edge is the horizon.
-        for i in N..4 * N {
+        // More points for a mass, whose edge is the horizon; not where of as many points none is beyond it.
+        let of_mass = if rejected > 0.0 { 4 * N } else { N };
+        for i in N..of_mass {
             rejected += f64::from(u8::from(lobe.sample(v, point(i)).rejected));
         }
-        rejected /= 4.0 * n;
+        rejected /= f64::from(of_mass);
         let shapes = integral(name, v, |l| {
             let pdf = lobe.pdf(l, v);
             let [shape, along, _] = moments(l, pdf);
