@@ -245,7 +245,7 @@ fn a_lobe_of_your_own_can_be_drawn() -> Result<(), Error> {
             Rgb::splat(0.5)
         }
     }
-    let material = Material::new("half", Surface::Other(Arc::new(Half)));
+    let material = Material::new("half", Surface::other(Half));
     let scene = Scene { meshes: vec![quad(0.0, 1.0, 0)?], materials: vec![material], ..Scene::default() };
     let lights = vec![Light::Directional { to_light: Vec3::Y * 7.0, irradiance: Rgb::splat(0.25) }];
     assert_eq!(middle(&scene, &view(down(3.0), lights), 0)?, 0.125);
