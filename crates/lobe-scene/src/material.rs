@@ -553,6 +553,24 @@ impl Surface {
         }
     }
 
+    /// What paths draw directions from, without pictures: a material of glTF as the catalogue has it. Nothing for a surface without
+    /// lobes.
+    #[must_use]
+    pub fn sampler(&self) -> Option<Box<dyn Sample<f32> + '_>> {
+        Some(match self {
+            Self::Black => return None,
+            Self::Diffuse(lobe) => Box::new(lobe),
+            Self::BlinnTorrance(lobes) => Box::new(lobes),
+            Self::Phong(lobes) => Box::new(lobes),
+            Self::NormalizedPhong(lobes) => Box::new(lobes),
+            Self::NormalizedBlinnPhong(lobes) => Box::new(lobes),
+            Self::Lobes(lobes) => Box::new(lobes.sampler()),
+            Self::Gltf(material) => material.lobes().first()?.sampler::<f32>(),
+            Self::Mapped(mapped) => return mapped.lobes.sampler(),
+            Self::Other(lobe) => Box::new(&**lobe),
+        })
+    }
+
     /// The lobes with their parameters.
     #[must_use]
     pub fn lobes(&self) -> Vec<LobeRecord> {
