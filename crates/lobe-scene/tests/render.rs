@@ -9,7 +9,6 @@ use lobe_scene::{
     Background, Camera, Error, Light, Material, Mesh, Renderer, Scene, Settings, ShadingModel, Surface, View,
 };
 use std::f32::consts::PI;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 #[path = "../examples/make_assets.rs"]

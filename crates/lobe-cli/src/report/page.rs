@@ -286,8 +286,8 @@ fn samples(page: &mut String, materials: &[MaterialFacts]) {
          from above, the viewer as the black or white dot to the right. The colour is what is reflected of the light from there, the lobe with its \
          cosine, bright at its peak and darkest {} decades below. Each orange dot is one of {} directions that were drawn: \
          they should be where it is bright.</p>\n<p>The variance is that of one sample in a white world, relative to the square of what \
-         is reflected, and beside it that of directions in proportion to the cosine: as many times it is larger, as many times more samples make as \
-         little noise. Rejected are samples below the horizon. The numbers are of {} samples.{left_out}</p>\n<div class=\"grid small\">\n",
+         is reflected, and beside it that of directions in proportion to the cosine: ten times the variance needs ten times the samples for the \
+         same noise. Rejected are samples below the horizon. The numbers are of {} samples.{left_out}</p>\n<div class=\"grid small\">\n",
         sampling::DECADES,
         sampling::SHOWN,
         sampling::DRAWN
@@ -325,7 +325,11 @@ fn short_variance(variance: f64) -> String {
 }
 
 fn percent(part: f64) -> String {
-    if part == 0.0 { "none".to_owned() } else { format!("{:.1} %", 100.0 * part) }
+    match part {
+        0.0 => "none".to_owned(),
+        x if x < 1e-3 => "below 0.1 %".to_owned(),
+        x => format!("{:.1} %", 100.0 * x),
+    }
 }
 
 fn ball(material: &MaterialFacts) -> String {

@@ -142,7 +142,8 @@ fn picture(sampler: &dyn Sample<f32>, v: Vec3<f32>, shown: &[(f64, f64)], title:
 fn colour(part: f64) -> [f32; 3] {
     const STOPS: [[f64; 3]; 4] = [[0.05, 0.09, 0.22], [0.12, 0.29, 0.53], [0.42, 0.68, 0.84], [0.94, 0.97, 1.0]];
     // The logarithm of 0 is −∞, and of what is no number there is no part.
-    let place = part.max(0.0).min(1.0) * (STOPS.len() - 1) as f64;
+    let part = if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) };
+    let place = part * (STOPS.len() - 1) as f64;
     let from = (place as usize).min(STOPS.len() - 2);
     let rest = place - from as f64;
     std::array::from_fn(|i| linear((STOPS[from][i] + rest * (STOPS[from + 1][i] - STOPS[from][i])) as f32))
@@ -202,6 +203,6 @@ mod tests {
         assert_eq!(dots.map(|dots| dots.matches("h0").count()), Some(SHOWN));
         assert!(svg.contains("<image") && !svg.contains("NaN"));
         assert!(of(&Material::new("black", lobe_scene::Surface::Black)).is_none());
-        assert_ne!(colour(f64::NEG_INFINITY), colour(1.0));
+        assert!(colour(f64::NEG_INFINITY) == colour(f64::NAN) && colour(0.0) != colour(1.0));
     }
 }
