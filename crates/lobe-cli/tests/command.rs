@@ -467,8 +467,8 @@ fn a_report_is_one_page_that_needs_nothing_else() {
 
     let page = fs::read_to_string(folder.path().join("out/index.html")).expect("a page");
     let images: Vec<&str> = page.split("<img").skip(1).collect();
-    // The view, and a sphere of its one material, lit and in a white world.
-    assert_eq!(images.len(), 3);
+    // The view, again by rays and by paths, and a sphere of its one material, lit and in a white world.
+    assert_eq!(images.len(), 5);
     assert!(
         images
             .iter()
@@ -484,12 +484,20 @@ fn a_report_is_one_page_that_needs_nothing_else() {
         assert_eq!(opened, page.matches(&format!("</{tag}>")).count(), "{tag}");
     }
     assert!(page.contains("gains energy"));
+    for id in ["between", "samples"] {
+        assert!(
+            page.contains(&format!("<section id=\"{id}\">")) && page.contains(&format!("<a href=\"#{id}\">")),
+            "{id}"
+        );
+    }
 
     let facts = fs::read_to_string(folder.path().join("out/report.json")).expect("a file");
     let facts: serde_json::Value = serde_json::from_str(&facts).expect("JSON");
     assert_eq!(facts["materials"].as_array().map(Vec::len), Some(1));
     assert_eq!(facts["materials"][0]["gains_energy"], true);
     assert_eq!(facts["materials"][0]["albedo"].as_array().map(Vec::len), Some(3));
+    assert_eq!((&facts["between"]["traced"]["samples"], &facts["between"]["nan_samples"]), (&16.into(), &0.into()));
+    assert!(facts["materials"][0]["sampling"]["relative_variance"].as_f64().is_some_and(|x| x < 1.0), "{facts:#}");
     let checks = facts["checks"].as_array().expect("a list");
     assert!(checks.len() == 5 && checks.iter().all(|check| check["holds"] == true), "{checks:#?}");
     assert_eq!(facts["command"], "lobe report s.obj -o out --samples 1 --width 64");

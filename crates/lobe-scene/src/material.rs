@@ -7,6 +7,7 @@ use crate::texture::Map;
 use glam::Vec2;
 use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
 use lobe::{BlinnPhong, Brdf, Lambert, Mirror, Phong, Rgb, Shininess, Sum};
+use lobe_sampling::{ByCosine, Sample};
 use std::fmt;
 use std::sync::Arc;
 
@@ -59,9 +60,11 @@ impl std::str::FromStr for ShadingModel {
     }
 }
 
-/// What the ray caster needs of a lobe of your own.
-pub trait AnyBrdf: Brdf<f32> + Send + Sync + fmt::Debug {}
-impl<B: Brdf<f32> + Send + Sync + fmt::Debug> AnyBrdf for B {}
+/// What a picture needs of a lobe of your own: values for the ray caster, samples for [`path`](crate::path).
+///
+/// Every lobe of `lobe` and `lobe-energy` has both. Of a BRDF of which nothing else is known [`Surface::other`] makes one.
+pub trait AnyBrdf: Brdf<f32> + Sample<f32> + Send + Sync + fmt::Debug {}
+impl<B: Brdf<f32> + Sample<f32> + Send + Sync + fmt::Debug> AnyBrdf for B {}
 
 /// The sum of lobes of a material.
 ///
@@ -89,7 +92,7 @@ pub enum Surface {
     Gltf(Arc<GltfMaterial>),
     /// The lecture's equation with pictures in place of some of its numbers.
     Mapped(Arc<MappedLobes>),
-    /// Any other BRDF, given from Rust.
+    /// Any other BRDF, given from Rust, with its samples.
     Other(Arc<dyn AnyBrdf>),
 }
 
@@ -149,13 +152,14 @@ pub struct NamedLobes {
     material: lobe_models::Material,
     brdf: lobe_models::AnyBrdf<f32>,
     batch: lobe_models::AnyBatch,
+    sampler: lobe_models::AnySampler<f32>,
 }
 
 impl NamedLobes {
     /// Builds the lobes.
     #[must_use]
     pub fn new(material: lobe_models::Material) -> Self {
-        Self { brdf: material.build(), batch: material.batch(), material }
+        Self { brdf: material.build(), batch: material.batch(), sampler: material.sampler(), material }
     }
 
     /// What they were built from.
@@ -174,6 +178,12 @@ impl NamedLobes {
     #[must_use]
     pub fn batch(&self) -> &dyn lobe_models::BatchBrdf {
         &*self.batch
+    }
+
+    /// The lobes as paths draw directions from them.
+    #[must_use]
+    pub fn sampler(&self) -> &dyn Sample<f32> {
+        &*self.sampler
     }
 }
 
@@ -524,6 +534,13 @@ impl LobeRecord {
 }
 
 impl Surface {
+    /// A BRDF of your own. Paths go on from it by the cosine: right for each, and noisy for a sharp one. One that knows how to
+    /// sample itself goes into [`Surface::Other`] as it is.
+    #[must_use]
+    pub fn other(brdf: impl Brdf<f32> + Send + Sync + fmt::Debug + 'static) -> Self {
+        Self::Other(Arc::new(ByCosine(brdf)))
+    }
+
     /// Diffuse reflection `kd` and a highlight `ks`, `q` by the given model.
     #[must_use]
     pub fn new(model: ShadingModel, kd: Rgb, ks: Rgb, q: Shininess) -> Self {
@@ -534,6 +551,24 @@ impl Surface {
             ShadingModel::NormalizedPhong => Self::NormalizedPhong(diffuse + Phong::new(ks, q)),
             ShadingModel::NormalizedBlinnPhong => Self::NormalizedBlinnPhong(diffuse + BlinnPhong::new(ks, q)),
         }
+    }
+
+    /// What paths draw directions from, without pictures: a material of glTF as the catalogue has it. Nothing for a surface without
+    /// lobes.
+    #[must_use]
+    pub fn sampler(&self) -> Option<Box<dyn Sample<f32> + '_>> {
+        Some(match self {
+            Self::Black => return None,
+            Self::Diffuse(lobe) => Box::new(lobe),
+            Self::BlinnTorrance(lobes) => Box::new(lobes),
+            Self::Phong(lobes) => Box::new(lobes),
+            Self::NormalizedPhong(lobes) => Box::new(lobes),
+            Self::NormalizedBlinnPhong(lobes) => Box::new(lobes),
+            Self::Lobes(lobes) => Box::new(lobes.sampler()),
+            Self::Gltf(material) => material.lobes().first()?.sampler::<f32>(),
+            Self::Mapped(mapped) => return mapped.lobes.sampler(),
+            Self::Other(lobe) => Box::new(&**lobe),
+        })
     }
 
     /// The lobes with their parameters.

@@ -9,7 +9,6 @@ use lobe_scene::{
     Background, Camera, Error, Light, Material, Mesh, Renderer, Scene, Settings, ShadingModel, Surface, View,
 };
 use std::f32::consts::PI;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 #[path = "../examples/make_assets.rs"]
@@ -245,7 +244,7 @@ fn a_lobe_of_your_own_can_be_drawn() -> Result<(), Error> {
             Rgb::splat(0.5)
         }
     }
-    let material = Material::new("half", Surface::Other(Arc::new(Half)));
+    let material = Material::new("half", Surface::other(Half));
     let scene = Scene { meshes: vec![quad(0.0, 1.0, 0)?], materials: vec![material], ..Scene::default() };
     let lights = vec![Light::Directional { to_light: Vec3::Y * 7.0, irradiance: Rgb::splat(0.25) }];
     assert_eq!(middle(&scene, &view(down(3.0), lights), 0)?, 0.125);

@@ -57,6 +57,7 @@ const STYLE: &str = "\
 .lobe-plot .c4{stroke:#8a6a00;stroke-dasharray:5 3}.lobe-plot .c5{stroke:#444;stroke-dasharray:15 4}\
 .lobe-plot .red{stroke:#c62828}.lobe-plot .green{stroke:#1c8440;stroke-dasharray:9 5}\
 .lobe-plot .blue{stroke:#2f5fd0;stroke-dasharray:2 5}\
+.lobe-plot .drawn{fill:none;stroke:#e8560c;stroke-width:2;stroke-linecap:round}\
 .lobe-plot .f0{fill:#0067a5}.lobe-plot .f1{fill:#c8500a}.lobe-plot .f2{fill:#00805a}\
 .lobe-plot .f3{fill:#9c3f8c}.lobe-plot .f4{fill:#8a6a00}.lobe-plot .f5{fill:#444}";
 
@@ -126,6 +127,15 @@ impl Svg {
     pub(crate) fn dot(&mut self, class: &str, (x, y): Point, radius: f64) {
         let _ =
             writeln!(self.body, "<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\"{radius}\"/>", short(x), short(y));
+    }
+
+    /// Many dots of the width of the class's line, in one element.
+    pub(crate) fn dots(&mut self, class: &str, points: &[Point]) {
+        let _ = write!(self.body, "<path class=\"{class}\" d=\"");
+        for &(x, y) in points {
+            let _ = write!(self.body, "M{} {}h0", short(x), short(y));
+        }
+        self.body.push_str("\"/>\n");
     }
 
     /// An arrow of the class `ray`.

@@ -1,6 +1,7 @@
 //! The scene's materials: what they are made of, and how much light they reflect.
 
 use super::furnace::{self, Curve};
+use super::sampling::{self, Sampling};
 use lobe::{Alpha, Brdf, Rgb, Vec3};
 use lobe_energy::{Albedo, Exchanged, directional_albedo_to, microfacet_albedo_to};
 use lobe_models::{Lobe, Value};
@@ -72,6 +73,9 @@ pub(crate) struct MaterialFacts {
     /// Which lobes it is made of, and why, in words.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) reasons: Vec<String>,
+    /// How it is sampled; nothing for one without lobes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sampling: Option<Sampling>,
     /// A PNG file of a sphere of it.
     #[serde(skip)]
     pub(crate) ball: Option<Vec<u8>>,
@@ -245,6 +249,7 @@ fn one(shown: &Shown<'_>) -> MaterialFacts {
             _ => verdict(known, &highest, gains_energy, &lobes),
         },
         reasons: material.reasons(),
+        sampling: sampling::of(material),
         ball: ball(material),
         furnace: furnace::picture(&curve),
         curve,

@@ -6,6 +6,7 @@ mod materials;
 mod page;
 mod pictures;
 mod random;
+mod sampling;
 mod trade;
 
 use crate::args::ReportArgs;
@@ -17,7 +18,7 @@ use crate::render;
 use crate::spec;
 use checks::Check;
 use materials::{MaterialFacts, Shown, Whole};
-use pictures::Picture;
+use pictures::{Between, Picture};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -33,6 +34,8 @@ pub(crate) struct Facts {
     pub(crate) command: String,
     pub(crate) scene: SceneFacts,
     pub(crate) views: Vec<Picture>,
+    /// The first view with the light between surfaces.
+    pub(crate) between: Between,
     pub(crate) materials: Vec<MaterialFacts>,
     pub(crate) checks: Vec<Check>,
     /// Nothing where no material has lobes.
@@ -56,6 +59,8 @@ pub(crate) struct SceneFacts {
 pub(crate) struct Seconds {
     pub(crate) load: f64,
     pub(crate) render: f64,
+    /// Of the picture by paths.
+    pub(crate) paths: f64,
     pub(crate) energy: f64,
     pub(crate) checks: f64,
     pub(crate) trade: f64,
@@ -94,8 +99,8 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
 
     let start_render = Instant::now();
     let size = (args.width, args.samples);
-    let (views, more_warnings) = pictures::take(&scene, &renderer, size, args.scene.is_none(), quiet)?;
-    let render = start_render.elapsed().as_secs_f64();
+    let (views, between, more_warnings) = pictures::take(&scene, &renderer, size, args.scene.is_none(), quiet)?;
+    let render = start_render.elapsed().as_secs_f64() - between.traced.seconds;
 
     let start_energy = Instant::now();
     let shown = materials::shown(&scene);
@@ -120,6 +125,7 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
     plots.extend(albedo_plot(&materials));
     let warnings = scene.warnings.iter().map(ToString::to_string).chain(more_warnings).collect();
     let total = start.elapsed().as_secs_f64();
+    let paths = between.traced.seconds;
     let facts = Facts {
         version: env!("CARGO_PKG_VERSION"),
         command: command(args),
@@ -129,11 +135,12 @@ pub(crate) fn run(args: &ReportArgs, quiet: bool, json: bool) -> Result<(), Fail
             meshes: scene.meshes.len(),
         },
         views,
+        between,
         materials,
         checks,
         trade,
         warnings,
-        seconds: Seconds { load, render, energy, checks: check_seconds, trade: trade_seconds, total },
+        seconds: Seconds { load, render, paths, energy, checks: check_seconds, trade: trade_seconds, total },
     };
     let facts_json = serde_json::to_string_pretty(&facts)
         .map_err(|error| Failure::Write(format!("report.json: cannot write this as JSON: {error}; report this")))?;

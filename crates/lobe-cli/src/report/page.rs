@@ -3,7 +3,8 @@
 use super::checks::Check;
 use super::furnace::SIDE;
 use super::materials::{BALL, LobeFacts, MaterialFacts, SHOWN};
-use super::pictures::Picture;
+use super::pictures::{Between, Picture};
+use super::sampling;
 use super::trade::{BUDGET, EFFORT, Trade};
 use super::{Facts, Plot};
 use crate::plot::svg::{data_uri, escape, label, style};
@@ -38,6 +39,7 @@ dialog img,dialog svg{display:block;width:auto;min-width:min(90vw,900px);max-wid
 .plot{border:1px solid var(--line);border-radius:8px;padding:14px 14px 16px;background:var(--paper)}\
 .plot svg{display:block;width:100%;height:auto;margin:6px 0;max-height:600px}\
 .whole{grid-column:1/-1;overflow-x:auto}.whole svg{min-width:720px}\
+.small{grid-template-columns:repeat(auto-fill,minmax(min(100%,230px),1fr));gap:16px}.small figcaption{font-size:.86rem}\
 .scroll{overflow-x:auto;margin:12px 0 6px;border:1px solid var(--line);border-radius:8px}\
 table{border-collapse:collapse;width:100%;font-size:.92rem}\
 th,td{text-align:left;vertical-align:top;padding:8px 14px;border-bottom:1px solid var(--line)}\
@@ -92,8 +94,10 @@ pub(crate) fn html(facts: &Facts, plots: &[Plot]) -> String {
     header(&mut page, facts, &title);
     page.push_str("<main>\n");
     views(&mut page, &facts.views);
+    between(&mut page, &facts.between);
     lobes(&mut page, plots);
     materials(&mut page, &facts.materials);
+    samples(&mut page, &facts.materials);
     checks(&mut page, &facts.checks);
     if let Some(measured) = &facts.trade {
         trade(&mut page, measured);
@@ -125,13 +129,14 @@ fn header(page: &mut String, facts: &Facts, title: &str) {
     let _ = write!(
         page,
         "<header>\n<h1>{}</h1>\n<p>{} triangles, {} materials, {} views. {checks} Of the materials, {energy}.</p>\n\
-         <nav aria-label=\"Sections\"><a href=\"#views\">Views</a><a href=\"#lobes\">Lobes</a>\
-         <a href=\"#materials\">Materials</a><a href=\"#checks\">Checks</a>{}<a href=\"#warnings\">Warnings</a>\
+         <nav aria-label=\"Sections\"><a href=\"#views\">Views</a><a href=\"#between\">Light between surfaces</a><a href=\"#lobes\">Lobes</a>\
+         <a href=\"#materials\">Materials</a>{}<a href=\"#checks\">Checks</a>{}<a href=\"#warnings\">Warnings</a>\
          <a href=\"#run\">This run</a></nav>\n</header>\n",
         escape(title),
         facts.scene.triangles,
         facts.materials.len(),
         facts.views.len(),
+        if has_samples(&facts.materials) { "<a href=\"#samples\">Samples</a>" } else { "" },
         if facts.trade.is_some() { "<a href=\"#trade\">What digits cost</a>" } else { "" }
     );
 }
@@ -173,6 +178,29 @@ fn views(page: &mut String, pictures: &[Picture]) {
         );
     }
     page.push_str(if pictures.len() > 1 { "</div>\n</section>\n" } else { "</section>\n" });
+}
+
+fn between(page: &mut String, Between { cast, traced, .. }: &Between) {
+    page.push_str(
+        "<section id=\"between\">\n<h2>Light between surfaces</h2>\n<p>The first view twice: by rays, as above, and by paths, which go \
+         on from surface to surface, each time in a direction that is drawn from the lobes of the material there.</p>\n\
+         <div class=\"grid\">\n",
+    );
+    for (picture, by, of) in [(cast, "rays", "rays"), (traced, "paths", "paths")] {
+        let _ = writeln!(
+            page,
+            "<figure>{}<figcaption><b>By {by}</b>: {} {of} a pixel, {:.2} s. {}</figcaption></figure>",
+            picture_element(
+                &picture.png,
+                (picture.width, picture.height),
+                &format!("The view {} by {by}. {}", picture.name, picture.caption)
+            ),
+            picture.samples,
+            picture.seconds,
+            prose(&picture.caption)
+        );
+    }
+    page.push_str("</div>\n</section>\n");
 }
 
 fn lobes(page: &mut String, plots: &[Plot]) {
@@ -231,6 +259,77 @@ fn materials(page: &mut String, materials: &[MaterialFacts]) {
         let _ = writeln!(page, "<td class=\"verdict\">{verdict}</td></tr>");
     }
     page.push_str("</tbody></table></div>\n</section>\n");
+}
+
+/// A page of hundreds of small pictures is no page.
+const MOST_SAMPLED: usize = 32;
+
+fn has_samples(materials: &[MaterialFacts]) -> bool {
+    materials.iter().any(|material| material.sampling.is_some())
+}
+
+/// What is drawn from each material.
+fn samples(page: &mut String, materials: &[MaterialFacts]) {
+    if !has_samples(materials) {
+        return;
+    }
+    let sampled: Vec<_> =
+        materials.iter().filter_map(|material| Some((material, material.sampling.as_ref()?))).collect();
+    let left_out = match sampled.len().saturating_sub(MOST_SAMPLED) {
+        0 => String::new(),
+        1 => " 1 more material is not shown.".to_owned(),
+        more => format!(" {more} more materials are not shown."),
+    };
+    let _ = write!(
+        page,
+        "<section id=\"samples\">\n<h2>The samples</h2>\n<p>Where paths go on from each material, for a viewer at 45°: the hemisphere \
+         from above, the viewer as the black or white dot to the right. The colour is what is reflected of the light from there, the lobe with its \
+         cosine, bright at its peak and darkest {} decades below. Each orange dot is one of {} directions that were drawn: \
+         they should be where it is bright.</p>\n<p>The variance is that of one sample in a white world, relative to the square of what \
+         is reflected, and beside it that of directions in proportion to the cosine: ten times the variance needs ten times the samples for the \
+         same noise. Rejected are samples below the horizon. The numbers are of {} samples.{left_out}</p>\n<div class=\"grid small\">\n",
+        sampling::DECADES,
+        sampling::SHOWN,
+        sampling::DRAWN
+    );
+    for (material, sampling) in sampled.into_iter().take(MOST_SAMPLED) {
+        let by_cosine = match sampling.relative_variance_by_cosine {
+            Some(variance) => format!("by the cosine {}", short_variance(variance)),
+            None => "by the cosine without bound".to_owned(),
+        };
+        let mirror = if material.lobes.iter().any(|lobe| lobe.model == "mirror") {
+            " Its mirror, of one direction, is not among them."
+        } else {
+            ""
+        };
+        let _ = writeln!(
+            page,
+            "<figure class=\"plot\"><h3>{}</h3>\n{}<figcaption>Variance <b>{}</b>, {by_cosine}; {} rejected.{mirror}</figcaption></figure>",
+            escape(&material.name),
+            sampling.svg.inline(),
+            short_variance(sampling.relative_variance),
+            percent(sampling.rejected)
+        );
+    }
+    page.push_str("</div>\n</section>\n");
+}
+
+/// Two digits, or that it is hardly there.
+fn short_variance(variance: f64) -> String {
+    match variance {
+        x if x < 1e-3 => "below 0.001".to_owned(),
+        x if x < 0.1 => format!("{x:.3}"),
+        x if x < 10.0 => format!("{x:.2}"),
+        x => format!("{x:.0}"),
+    }
+}
+
+fn percent(part: f64) -> String {
+    match part {
+        0.0 => "none".to_owned(),
+        x if x < 1e-3 => "below 0.1 %".to_owned(),
+        x => format!("{:.1} %", 100.0 * x),
+    }
 }
 
 fn ball(material: &MaterialFacts) -> String {
@@ -439,7 +538,7 @@ fn run(page: &mut String, facts: &Facts) {
         page,
         "<section id=\"run\">\n<h2>This run</h2>\n<p>The same report again:</p>\n<pre><code>{}</code></pre>\n<dl>\n\
          <dt>scene</dt><dd>{}: {} triangles in {} meshes</dd>\n<dt>reading</dt><dd>{:.2} s</dd>\n\
-         <dt>pictures</dt><dd>{:.2} s, {samples} rays a pixel</dd>\n<dt>albedos</dt><dd>{:.2} s</dd>\n\
+         <dt>pictures</dt><dd>{:.2} s, {samples} rays a pixel</dd>\n<dt>paths</dt><dd>{:.2} s</dd>\n<dt>albedos</dt><dd>{:.2} s</dd>\n\
          <dt>checks</dt><dd>{:.2} s</dd>\n<dt>times</dt><dd>{:.2} s</dd>\n<dt>in all</dt><dd>{:.2} s</dd>\n<dt>version</dt><dd>lobe {}</dd>\n</dl>\n\
          </section>\n",
         escape(&facts.command),
@@ -448,6 +547,7 @@ fn run(page: &mut String, facts: &Facts) {
         scene.meshes,
         seconds.load,
         seconds.render,
+        seconds.paths,
         seconds.energy,
         seconds.checks,
         seconds.trade,

@@ -3,7 +3,7 @@
 use crate::error::Failure;
 use crate::render;
 use lobe_scene::image::Display;
-use lobe_scene::{Image, Renderer, Scene, Settings, View};
+use lobe_scene::{Image, Renderer, Scene, Settings, View, path};
 use serde::Serialize;
 use std::time::Instant;
 
@@ -21,51 +21,112 @@ pub(crate) struct Picture {
     pub(crate) png: Vec<u8>,
 }
 
-/// All pictures together, as PNG. The page is a third larger, by its base64, and stays below 5 MB.
-const MOST_BYTES: usize = 3_200_000;
+/// All pictures together, as PNG. In the page they are a third larger, by its base64; with all else that is in it, it stays at about 5 MB.
+const MOST_BYTES: usize = 2_400_000;
 /// A page of a hundred views is no page.
 const MOST_VIEWS: usize = 16;
 
-/// Renders the views of a scene; a warning for what is left out.
+/// Surfaces that a path may meet.
+const DEPTH: u32 = 16;
+/// Paths for each pixel, for each ray that the ray caster takes there.
+const PATHS: u32 = 16;
+
+/// The first view, with and without the light between surfaces.
+#[derive(Debug, Serialize)]
+pub(crate) struct Between {
+    /// By the ray caster.
+    pub(crate) cast: Picture,
+    /// By paths.
+    pub(crate) traced: Picture,
+    /// Samples of paths that were no radiance.
+    pub(crate) nan_samples: u64,
+}
+
+/// A picture that can still be made smaller.
+struct Taken {
+    picture: Picture,
+    image: Image,
+    display: Display,
+}
+
+impl Taken {
+    fn new(view: &View, caption: String, image: Image, samples: u32, seconds: f64) -> Result<Self, Failure> {
+        let display = Display { exposure: view.exposure, ..Display::default() };
+        let (width, height, png) = (image.width(), image.height(), image.to_png(&display)?);
+        let picture = Picture { name: view.name.clone(), caption, width, height, samples, seconds, png };
+        Ok(Self { picture, image, display })
+    }
+}
+
+/// Renders the views of a scene, the first of them by paths too; a warning for what is left out.
 pub(crate) fn take(
     scene: &Scene,
     renderer: &Renderer<'_>,
     (width, samples): (u32, u32),
     built_in: bool,
     quiet: bool,
-) -> Result<(Vec<Picture>, Vec<String>), Failure> {
-    let default = [View::default()];
-    let views = if scene.views.is_empty() { &default[..] } else { &scene.views[..] };
-    let mut images = Vec::new();
-    let mut pictures = Vec::new();
-    for (index, view) in views.iter().take(MOST_VIEWS).enumerate() {
-        let width = if index == 0 { width } else { width * 2 / 3 };
-        let settings = Settings { width, height: (width * 9).div_ceil(16), samples, ..Settings::default() };
+) -> Result<(Vec<Picture>, Between, Vec<String>), Failure> {
+    let default = View::default();
+    let views = if scene.views.is_empty() { std::slice::from_ref(&default) } else { &scene.views[..] };
+    let size = |width: u32| (width, (width * 9).div_ceil(16));
+    let cast = |view: &View, width: u32, caption: String| -> Result<Taken, Failure> {
+        let (width, height) = size(width);
+        let settings = Settings { width, height, samples, ..Settings::default() };
         let start = Instant::now();
         let image = render::take(renderer, view, &settings, &view.name, quiet)?;
-        let seconds = start.elapsed().as_secs_f64();
-        let display = Display { exposure: view.exposure, ..Display::default() };
-        pictures.push(Picture {
-            name: view.name.clone(),
-            caption: caption(view, built_in),
-            width: settings.width,
-            height: settings.height,
-            samples,
-            seconds,
-            png: image.to_png(&display)?,
-        });
-        images.push((image, display));
+        Taken::new(view, caption, image, samples, start.elapsed().as_secs_f64())
+    };
+    let mut taken = Vec::new();
+    for (index, view) in views.iter().take(MOST_VIEWS).enumerate() {
+        let width = if index == 0 { width } else { width * 2 / 3 };
+        taken.push(cast(view, width, caption(view, built_in))?);
     }
+    let first = views.first().unwrap_or(&default);
+    // Half of the width: of more paths nobody would wait for the end.
+    let mut beside = cast(first, width / 2, String::new())?;
+    beside.picture.caption =
+        "What comes straight from the lights or by mirrors. An ambient term stands for all other light.".to_owned();
+    let (mut traced, nan_samples) = traced(renderer, first, size(width / 2), PATHS * samples, quiet)?;
 
     let mut warnings = Vec::new();
     if views.len() > MOST_VIEWS {
         warnings
             .push(format!("the report shows {MOST_VIEWS} of {} views; `lobe render --view` draws any", views.len()));
     }
-    // The largest is halved until all fit.
-    while pictures.iter().map(|picture| picture.png.len()).sum::<usize>() > MOST_BYTES {
-        let largest = pictures.iter_mut().zip(&mut images).max_by_key(|(picture, _)| picture.png.len());
-        let Some((picture, (image, display))) = largest else { break };
+    if nan_samples > 0 {
+        warnings.push(format!("{nan_samples} samples of paths were no radiance, and are left out"));
+    }
+    fit(&mut taken.iter_mut().chain([&mut beside, &mut traced]).collect::<Vec<_>>())?;
+    let between = Between { cast: beside.picture, traced: traced.picture, nan_samples };
+    Ok((taken.into_iter().map(|taken| taken.picture).collect(), between, warnings))
+}
+
+/// The view by paths, and how many samples were no radiance.
+fn traced(
+    renderer: &Renderer<'_>,
+    view: &View,
+    (width, height): (u32, u32),
+    samples: u32,
+    quiet: bool,
+) -> Result<(Taken, u64), Failure> {
+    let options = path::Options { width, height, samples, max_depth: DEPTH, ..path::Options::default() };
+    let start = Instant::now();
+    let rendered = render::take_by_paths(renderer, view, &options, "paths", quiet)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let caption = format!(
+        "What comes by way of other surfaces too, over up to {DEPTH} of them, and no ambient term. Shadows are lit by what stands \
+         around, and colours pass from one surface to the next. What is left of grain is chance: half of it with four times the paths."
+    );
+    Ok((Taken::new(view, caption, rendered.image, samples, seconds)?, rendered.nan_samples))
+}
+
+/// Halves the largest picture until all have room.
+fn fit(taken: &mut [&mut Taken]) -> Result<(), Failure> {
+    while taken.iter().map(|taken| taken.picture.png.len()).sum::<usize>() > MOST_BYTES {
+        let Some(Taken { picture, image, display }) = taken.iter_mut().max_by_key(|taken| taken.picture.png.len())
+        else {
+            break;
+        };
         if image.width() < 64 || image.height() < 64 {
             break;
         }
@@ -73,7 +134,7 @@ pub(crate) fn take(
         picture.png = image.to_png(display)?;
         (picture.width, picture.height) = (image.width(), image.height());
     }
-    Ok((pictures, warnings))
+    Ok(())
 }
 
 /// The picture at half of the size: each pixel the mean of four.

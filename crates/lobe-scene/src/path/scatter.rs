@@ -102,10 +102,9 @@ impl<'a> Scatter<'a> {
             if gltf.has_coat() {
                 let frame = at.frame(point, found.coat_normal, None);
                 below = one * coat(&found).transmitted(frame.to_local(point.v.into()));
-                scatter.parts[1] = Part::new(Lobe::of_coat(&found), frame, point, Rgb::splat(found.coat));
-                // The lobe has the coat's intensity itself: it is the share of the samples that it is wanted for.
-                if let Some(part) = &mut scatter.parts[1] {
-                    part.tint = one;
+                // A picture may take it away at a point.
+                if found.coat > 0.0 {
+                    scatter.parts[1] = Part::new(Lobe::of_coat(&found), frame, point, one);
                 }
             }
             let frame = at.frame(point, found.normal, gltf.is_anisotropic().then_some(found.direction));
@@ -131,7 +130,7 @@ impl<'a> Scatter<'a> {
             scatter.parts[0] = Part::new(lobes, frame, point, one);
         }
         if !is_black(material.mirror.ks()) {
-            scatter.parts[2] = Part::new(Lobe::of_mirror(material.mirror), frame, point, found.specular);
+            scatter.parts[2] = Part::new(Lobe::Mirror(material.mirror), frame, point, found.specular);
         }
         scatter.divide();
         scatter
@@ -201,10 +200,6 @@ impl<'a> Scatter<'a> {
                 let own = part.share * pdf;
                 let (others, others_pdf) = self.eval_but(Some(at), direction);
                 let pdf = own + others_pdf;
-                // On the horizon itself: no light is reflected from there, and the quotient would be 0/0. NaN goes on.
-                if pdf <= 0.0 {
-                    return None;
-                }
                 // By quotients of densities: a product with a sharp one could leave the range.
                 let weight = part.tint * weight / part.share * (own / pdf) + others / pdf;
                 Some(Bounce { start: self.lifted, direction, weight, pdf: Some(pdf) })
