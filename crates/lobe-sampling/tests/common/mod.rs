@@ -80,7 +80,7 @@ pub(crate) fn stepped_density_is_normalised(name: &str, sampler: &dyn Sample<f64
 
 /// The integral of the density, and the parts of the samples that are rejected and deltas; together they are 1.
 pub(crate) fn masses(sampler: &dyn Sample<f64>, v: Vec3<f64>, count: usize) -> [f64; 3] {
-    let integral = directional_albedo_to(2e-5, &Density(sampler), v);
+    let integral = directional_albedo_to(1e-4, &Density(sampler), v);
     assert!(integral.error < 3e-4, "{integral:?} at {v:?}");
     let [rejected, deltas] = without_density(sampler, v, count);
     [integral.value.g, rejected, deltas]

@@ -137,12 +137,12 @@ fn widths(x: f64, y: f64) -> Value {
 }
 
 /// Whether a number runs over orders of magnitude from 0, as an exponent does.
-fn is_logarithmic(min: f64, max: f64) -> bool {
+pub(crate) fn is_logarithmic(min: f64, max: f64) -> bool {
     (0.0..=1.0).contains(&min) && max >= 1e3
 }
 
 /// The values of the grid for a parameter.
-fn grid_values(kind: Kind) -> Vec<Value> {
+pub(crate) fn grid_values(kind: Kind) -> Vec<Value> {
     match kind {
         // Three channels are three values at once.
         Kind::Colour { max } => [[0.0, 1e-6, 1.0], [0.04, 0.5, 0.97]]
@@ -242,7 +242,8 @@ fn nudged_value(kind: Kind, value: Value, random: &mut Random) -> Value {
     }
 }
 
-fn lobe(model: &'static Model, values: impl IntoIterator<Item = Value>) -> Option<Lobe> {
+/// The lobe with these values, in the order of the model's parameters.
+pub(crate) fn lobe(model: &'static Model, values: impl IntoIterator<Item = Value>) -> Option<Lobe> {
     let given: Vec<_> = model.parameters.iter().map(|p| p.name).zip(values).collect();
     // Values outside a domain would be a mistake above; the test asks for all of them.
     Lobe::new(model, &given).ok()

@@ -18,7 +18,7 @@ mod inputs;
 
 use histogram::Histogram;
 use inputs::GRAZING;
-pub(crate) use inputs::{Random, across, random_lobe, random_value, tilted, unit};
+pub(crate) use inputs::{Random, across, grid_values, is_logarithmic, lobe, random_lobe, random_value, tilted, unit};
 use lobe::{Brdf, Rgb, Vec3};
 use lobe_models::{Bound, Lobe, Model};
 use rayon::prelude::*;

@@ -25,8 +25,11 @@
 //! raises a false alarm once in a thousand, as a whole (Holm's correction). Seeds are hashes of the names, so that nobody picks one,
 //! and the numbers do not depend on threads.
 //!
+//! [`models`] is that suite of all samplers of this workspace.
+//!
 //! How small a fault is found is measured with planted ones: see [`mutants`].
 
+mod catalogue;
 mod claims;
 mod draws;
 pub mod mutants;
@@ -40,6 +43,7 @@ mod suite;
 mod variance;
 mod view;
 
+pub use catalogue::models;
 pub use claims::Claims;
 pub use random::Points;
 pub use report::{Case, Fit, Observed, Outcome, Property, Report, Suite, Verdict, View};
@@ -70,6 +74,10 @@ pub struct Effort {
     pub agreement: f64,
     /// The chance of any false alarm of the whole suite.
     pub significance: f64,
+    /// For [`models`]: lobes of each model.
+    pub lobes: usize,
+    /// For [`models`]: views, at most five.
+    pub views: usize,
 }
 
 impl Effort {
@@ -83,6 +91,8 @@ impl Effort {
         cells: 6000,
         agreement: 1.0,
         significance: 1e-3,
+        lobes: 1,
+        views: 3,
     };
     /// A second or two.
     pub const FULL: Self = Self {
@@ -93,6 +103,8 @@ impl Effort {
         tolerance: 1e-6,
         cells: 60_000,
         agreement: 1e-6,
+        lobes: 8,
+        views: 4,
         ..Self::QUICK
     };
 }

@@ -180,6 +180,29 @@ struct Split {
     first: usize,
 }
 
+/// Those whose place is below a split, and the others.
+fn divided<T>(all: &mut [T], split: Split, place: impl Fn(&T) -> [f64; 2]) -> (&mut [T], &mut [T]) {
+    let below = |one: &T| *low_of(&place(one), split.axis) < split.at;
+    all.sort_unstable_by_key(|one| !below(one));
+    let count = all.iter().take_while(|one| below(one)).count();
+    all.split_at_mut(count)
+}
+
+/// A place with its density.
+#[derive(Clone, Copy, Debug)]
+struct Witness {
+    place: [f64; 2],
+    pdf: f64,
+}
+
+impl Witness {
+    fn new(density: &Density<'_>, chart: &Chart, place: [f64; 2]) -> Self {
+        Self { place, pdf: density.sampler.pdf(chart.direction(place), density.v) }
+    }
+}
+
+/// How often both reasons to halve a cell take turns.
+const ROUNDS: usize = 4;
 /// Cells are not halved beyond this: a sampler that gives but one direction would have no end.
 const DEEPEST: usize = 90;
 /// So many of the samples that show the way may fall into one cell before it is halved.
@@ -201,16 +224,94 @@ pub(crate) struct Density<'a> {
 }
 
 impl Partition {
-    /// Halves cells until the errors of all sum up to `tolerance`, or there are `most` cells. `pilot` are places of samples.
-    pub(crate) fn new(density: &Density<'_>, pilot: &mut [[f64; 2]], tolerance: f64, most: usize) -> Self {
+    /// Halves cells until the errors of all sum up to `tolerance`, or there are `most` cells. `pilot` are places of samples that show
+    /// the way, `witnesses` such as must not be missed.
+    pub(crate) fn new(
+        density: &Density<'_>,
+        pilot: &mut [[f64; 2]],
+        witnesses: &[[f64; 2]],
+        tolerance: f64,
+        most: usize,
+    ) -> Self {
         let root = Cell { low: [0.0; 2], high: [1.0; 2], depth: 0, stubborn: 0, split: None, rule: None };
         let mut this = Self { chart: Chart::new(density.v), cells: vec![root], bad: None };
         this.follow(0, pilot);
         for index in 0..this.cells.len() {
             this.measure(density, index);
         }
-        this.refine(density, tolerance, most);
+        // A cell that is left as it is holds less than a tenth of one of them.
+        let least = 0.1 / witnesses.len().max(1) as f64;
+        let mut witnesses: Vec<_> = witnesses.iter().map(|place| Witness::new(density, &this.chart, *place)).collect();
+        // What is halved for one reason may need it for the other.
+        for _ in 0..ROUNDS {
+            this.refine(density, tolerance, most);
+            let before = this.cells.len();
+            this.attend(density, 0, &mut witnesses, least, 2 * most);
+            if this.cells.len() == before {
+                break;
+            }
+        }
         this
+    }
+
+    /// Halves a cell until none of these places has a density far above that of the nodes around it: a ridge between them, or the
+    /// strip between a step and the border of the cell, of which the difference of two rules says nothing (tests
+    /// `a_ridge_between_the_nodes_is_found`, `a_step_beside_the_border_of_a_cell_is_found`). What is left out of a cell is
+    /// less than `least` of the mass.
+    fn attend(&mut self, density: &Density<'_>, index: usize, witnesses: &mut [Witness], least: f64, most: usize) {
+        let Some(&Cell { low, high, depth, split, rule, .. }) = self.cells.get(index) else { return };
+        let split = match (split, rule) {
+            _ if witnesses.is_empty() => return,
+            (Some(split), _) => split,
+            (None, Some(rule)) => {
+                let full = depth >= DEEPEST || self.cells.len() >= most;
+                if full || !self.misses(density, [low, high], rule.sums.pdf, witnesses, least) {
+                    return;
+                }
+                let split = self.halve(index, depth % 2);
+                for half in [split.first, split.first + 1] {
+                    self.measure(density, half);
+                }
+                split
+            }
+            (None, None) => return,
+        };
+        let (first, second) = divided(witnesses, split, |witness| witness.place);
+        self.attend(density, split.first, first, least, most);
+        self.attend(density, split.first + 1, second, least, most);
+    }
+
+    /// Whether the nodes around one of these places have a density far below the one there, and the cell is worth it.
+    fn misses(
+        &self,
+        density: &Density<'_>,
+        [[a0, s0], [a1, s1]]: [[f64; 2]; 2],
+        mass: f64,
+        witnesses: &[Witness],
+        least: f64,
+    ) -> bool {
+        let area = TAU * (a1 - a0) * (a1 + a0) * (s1 - s0);
+        // No more than the mean is no ridge, and next to nothing is not worth it.
+        let suspects = witnesses.iter().filter(|witness| witness.pdf * area > mass.max(least));
+        if suspects.clone().next().is_none() {
+            return false;
+        }
+        let at = |place| density.sampler.pdf(self.chart.direction(place), density.v);
+        let node = |from: f64, to: f64, i: usize| {
+            0.5 * (from + to) + 0.5 * (to - from) * RULE.get(i).map_or(0.0, |(x, ..)| *x)
+        };
+        let nodes: [[f64; 7]; 7] =
+            std::array::from_fn(|i| std::array::from_fn(|j| at([node(a0, a1, i), node(s0, s1, j)])));
+        // The node before a coordinate and the one after it, at the ends the same twice.
+        let around = |from: f64, to: f64, x: f64| {
+            let after = (0..7).filter(|i| node(from, to, *i) <= x).count();
+            after.saturating_sub(1)..=after.min(6)
+        };
+        suspects.into_iter().any(|Witness { place: [a, s], pdf }| {
+            let columns = nodes.get(around(a0, a1, *a)).into_iter().flatten();
+            let near = columns.flat_map(|column| column.get(around(s0, s1, *s)).into_iter().flatten());
+            *pdf > 4.0 * near.fold(0.0, |most: f64, x| most.max(*x))
+        })
     }
 
     /// Halves a cell until no more than a few samples are in each.
@@ -229,10 +330,7 @@ impl Partition {
         let [a, s] = crowd;
         let axis = if a.min(s) > 0.5 || a == s { depth % 2 } else { usize::from(s < a) };
         let split = self.halve(index, axis);
-        let below = |p: &[f64; 2]| p.get(axis).copied().unwrap_or_default() < split.at;
-        points.sort_unstable_by_key(|p| !below(p));
-        let count = points.iter().take_while(|p| below(p)).count();
-        let (first, second) = points.split_at_mut(count);
+        let (first, second) = divided(points, split, |place| *place);
         self.follow(split.first, first);
         self.follow(split.first + 1, second);
     }
@@ -590,7 +688,7 @@ mod tests {
         let v = [0.6, 0.0, 0.8];
         let cosine = of(|l, _| l[2] * FRAC_1_PI);
         let density = Density { sampler: &cosine, v };
-        let mut partition = Partition::new(&density, &mut [], 1e-7, 4000);
+        let mut partition = Partition::new(&density, &mut [], &[], 1e-7, 4000);
         assert!((partition.total().0.pdf - 1.0).abs() < 1e-9);
         // Below cos θ the cosine has 1 − cos².
         let edges = [0.1, 0.3, 0.5, 0.77, 1.0];
@@ -622,16 +720,64 @@ mod tests {
         });
         let density = Density { sampler: &sharp, v: [0.6, 0.0, 0.8] };
         let mut pilot = vec![[0.612_345, 0.312_345]; CROWD + 1];
-        let partition = Partition::new(&density, &mut pilot, 1e-6, 4000);
+        let partition = Partition::new(&density, &mut pilot, &[], 1e-6, 4000);
         let (sums, error, _) = partition.total();
         assert!((sums.pdf - 1.0).abs() < 1e-6 && error < 1e-5, "{sums:?} ± {error:e}");
+    }
+
+    /// Places by the density: on the hemisphere evenly, taken where a number is below it.
+    fn drawn(density: &Density<'_>, count: usize, most: f64) -> Vec<[f64; 2]> {
+        let (mut random, chart) = (super::super::random::Random::new(7, 0), Chart::new(density.v));
+        let draws = std::iter::repeat_with(|| {
+            let [x, a, s] = random.point(Precision::Double);
+            let place = [libm::sqrt(a), s];
+            (x * most < density.sampler.pdf(chart.direction(place), density.v)).then_some(place)
+        });
+        draws.flatten().take(count).collect()
+    }
+
+    /// A lobe of slopes fifty times as wide one way as the other, of which a cell's nodes see no more than the middle.
+    #[test]
+    fn a_ridge_between_the_nodes_is_found() {
+        let (x, y) = (0.5, 0.01);
+        let ridge = of(move |l, _| {
+            let (z2, t) = (l[2] * l[2], ((l[0] / x).powi(2) + (l[1] / y).powi(2)) / (l[2] * l[2]));
+            if l[2] > 0.0 { libm::exp(-t) / (PI * x * y * z2 * l[2]) } else { 0.0 }
+        });
+        let density = Density { sampler: &ridge, v: [0.0, 0.0, 1.0] };
+        let places = drawn(&density, 1 << 13, 1.0 / (PI * x * y));
+        let missing = |witnesses| {
+            let mut pilot: Vec<_> = places.iter().take(1024).copied().collect();
+            let (sums, error, _) = Partition::new(&density, &mut pilot, witnesses, 1e-5, 6000).total();
+            assert!(error < 2e-5, "{error:e}");
+            1.0 - sums.pdf
+        };
+        let (with, without) = (missing(&places), missing(&[]));
+        assert!(with.abs() < 1e-4 && without > 1e-2, "{with:e} {without:e}");
+    }
+
+    #[test]
+    fn a_step_beside_the_border_of_a_cell_is_found() {
+        // The hemisphere around a direction next to the horizon: its edge is next to s = 1/4 and 3/4.
+        let v = [0.999_95_f64.sqrt(), 0.0, 0.01];
+        let half = of(move |l, v| if v[2] * l[2] > v[0] * l[0] { 1.0 / TAU } else { 0.0 });
+        let density = Density { sampler: &half, v };
+        let exact = 0.5 + libm::asin(v[2] / v[0].hypot(v[2])) / PI;
+        let places = drawn(&density, 1 << 13, 1.0 / TAU);
+        let off = |witnesses| {
+            let (sums, error, _) = Partition::new(&density, &mut [], witnesses, 1e-5, 6000).total();
+            ((sums.pdf - exact).abs(), error)
+        };
+        // The edge takes more cells than there are, and that is told; without witnesses it is not.
+        let ((with, known), (without, unknown)) = (off(&places), off(&[]));
+        assert!(with < known && with < 1e-3 && without > 1e-3 && unknown < 1e-4, "{with} {known} {without} {unknown}");
     }
 
     #[test]
     fn what_is_no_density_is_told() {
         let broken = of(|l, _| if l[2] > 0.5 { f64::NAN } else { 1.0 });
         let density = Density { sampler: &broken, v: [0.0, 0.0, 1.0] };
-        let bad = Partition::new(&density, &mut [], 1e-3, 100).bad.unwrap();
+        let bad = Partition::new(&density, &mut [], &[], 1e-3, 100).bad.unwrap();
         assert!(bad.0[2] > 0.5 && bad.1.is_nan());
     }
 }

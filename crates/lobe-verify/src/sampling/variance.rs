@@ -45,7 +45,7 @@ fn variance(name: &str, sampler: &dyn Sampler, v: [f64; 3]) -> Option<Variance> 
     let mut places = pilot(sampler, v, Chart::new(v), seed(&format!("{name} {v:?}")), 1024);
     places.extend(around_mirror(v));
     let Effort { tolerance, cells, .. } = Effort::QUICK;
-    let (sums, ..) = Partition::new(&Density { sampler, v }, &mut places, tolerance, cells).total();
+    let (sums, ..) = Partition::new(&Density { sampler, v }, &mut places, &[], tolerance, cells).total();
     let albedo = sums.mean_value();
     let variance = (sums.second - albedo * albedo).max(0.0);
     let samples = (variance / (1e-4 * albedo * albedo)).max(1.0);

@@ -28,6 +28,9 @@ const SKEWED: f64 = 0.02;
 const LEAST_SHARING: f64 = 100.0;
 /// Samples that show where the density is.
 const PILOT: usize = 1024;
+/// As many more as that, at most, of which none may fall where the quadrature sees nothing: what it misses has less than about as
+/// small a part of the mass.
+const WITNESSES: usize = 1 << 16;
 /// Quantiles at which distribution functions are compared.
 const EDGES: usize = 256;
 
@@ -64,10 +67,11 @@ fn look(name: &str, sampler: &dyn Sampler, claims: &Claims, v: [f64; 3], effort:
     let mut verdicts = pointwise::verdicts(At { sampler, claims, v }, seed, effort.single);
 
     let density = Density { sampler, v };
-    let mut places = pilot(sampler, v, super::partition::Chart::new(v), seed, PILOT);
+    let witnesses = pilot(sampler, v, super::partition::Chart::new(v), seed, (effort.samples / 4).min(WITNESSES));
+    let mut places: Vec<_> = witnesses.iter().take(PILOT).copied().collect();
     let edges = quantiles(&places);
     places.extend(around_mirror(v));
-    let mut partition = Partition::new(&density, &mut places, effort.tolerance, effort.cells);
+    let mut partition = Partition::new(&density, &mut places, &witnesses, effort.tolerance, effort.cells);
     let bins = partition.bins(&density, effort.bins);
     let (sums, pdf_error, value_error) = partition.total();
     let plan = Plan { sampler, v, partition: &partition, bins: &bins, edges: &edges, seed };
