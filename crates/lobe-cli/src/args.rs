@@ -488,8 +488,8 @@ pub(crate) struct PlotArgs {
     /// What to draw
     #[arg(long, value_enum, default_value = "polar")]
     pub(crate) kind: Kind,
-    /// The BRDFs: JSON, @FILE, a preset or a measured one such as ngan:pvc/ward. `surface`, `slices`, `image` and `terms`
-    /// draw one, `compare` none, the others up to six
+    /// The BRDFs: JSON, @FILE, a preset or a measured one such as ngan:pvc/ward. `surface`, `slices`, `image`, `terms`
+    /// and `samples` draw one, `compare` none, the others up to six
     #[arg(value_name = "BRDF")]
     pub(crate) specs: Vec<String>,
     /// One more BRDF; may be given several times
@@ -524,6 +524,7 @@ Examples:
   lobe plot --kind image ngan:gold-metallic-paint/cook-torrance -o image.svg
   lobe plot --kind compare --incidence 55 --q 50 -o compare.svg
   lobe plot --kind surface '{\"lobes\": [{\"model\": \"phong\", \"ks\": 1, \"q\": 20}]}' -o surface.svg
+  lobe plot --kind samples ggx-gold --incidence 60 -o samples.svg
   lobe plot --kind curve glossy --incidence 80 -o - > curve.svg";
 
 /// The kinds of plot.
@@ -545,6 +546,8 @@ pub(crate) enum Kind {
     Terms,
     /// The distributions of microfacet lobes around the normal, each to its own peak
     Distribution,
+    /// Directions of light that one BRDF draws for a viewer at --incidence, over what it reflects from there
+    Samples,
 }
 
 fn parse_incidence(text: &str) -> Result<f64, String> {

@@ -14,10 +14,7 @@ pub(crate) fn run(args: &ModelsArgs, as_json: bool) -> Result<(), Failure> {
     }
     let chosen: Vec<&Model> = match &args.model {
         None => models().collect(),
-        Some(name) => vec![model(name).ok_or_else(|| {
-            let near = nearest(name, models().map(|model| model.name), 3);
-            Failure::Usage(format!("unknown model `{name}`; the nearest are {}", near.join(", ")))
-        })?],
+        Some(name) => vec![find(name)?],
     };
     if as_json {
         let list: Vec<Value> = chosen.into_iter().map(to_json).collect();
@@ -32,6 +29,14 @@ pub(crate) fn run(args: &ModelsArgs, as_json: bool) -> Result<(), Failure> {
         }
     }
     output::print(text.as_bytes())
+}
+
+/// The model of that name.
+pub(crate) fn find(name: &str) -> Result<&'static Model, Failure> {
+    model(name).ok_or_else(|| {
+        let near = nearest(name, models().map(|model| model.name), 3);
+        Failure::Usage(format!("unknown model `{name}`; the nearest are {}", near.join(", ")))
+    })
 }
 
 /// The measured materials with their colours, and the models that each is fitted with.

@@ -6,7 +6,7 @@ use crate::output;
 use crate::progress::Waiting;
 use crate::spec;
 use lobe_verify::sampling::mutants::survey;
-use lobe_verify::sampling::{Effort, InDouble, InSingle, Sampler, Suite, verify_all, views};
+use lobe_verify::sampling::{self, Effort, InDouble, InSingle, Sampler, Suite, verify_all, views};
 use serde_json::json;
 
 /// Runs it.
@@ -17,7 +17,11 @@ pub(crate) fn run(args: &VerifyArgs, quiet: bool, json: bool) -> Result<(), Fail
     }
     let suite = match &args.brdf {
         Some(argument) => of_brdf(argument, effort, quiet)?,
-        None => of_brdf("red-plastic", effort, quiet)?,
+        None => {
+            let model = args.model.as_deref().map(crate::models::find).transpose()?;
+            let _waiting = Waiting::new("samples", quiet);
+            model.map_or_else(|| sampling::models(effort), |model| sampling::model(model, effort))
+        }
     };
     let text = if json { format!("{:#}\n", json!(suite)) } else { suite.to_string() };
     output::print(text.as_bytes())?;

@@ -7,6 +7,7 @@ mod curve;
 mod image;
 mod pareto;
 mod polar;
+mod samples;
 mod surface;
 pub(crate) mod svg;
 mod terms;
@@ -17,6 +18,7 @@ pub(crate) use curve::{curve, slices};
 pub(crate) use image::image;
 pub(crate) use pareto::{Dot, front, pareto, pareto_panel};
 pub(crate) use polar::{distribution, polar};
+pub(crate) use samples::{DECADES, SHOWN, samples};
 pub(crate) use surface::surface;
 pub(crate) use terms::{Cut, Facets, terms};
 
@@ -121,7 +123,7 @@ pub(crate) fn run(args: &PlotArgs, quiet: bool, json: bool) -> Result<(), Failur
             "{path}: unknown kind of file; plots end in .svg, or - is standard output"
         )));
     }
-    if args.log && matches!(args.kind, Kind::Compare | Kind::Surface | Kind::Terms) {
+    if args.log && matches!(args.kind, Kind::Compare | Kind::Surface | Kind::Terms | Kind::Samples) {
         let right = "leave it out, or take --kind polar, slices, image or distribution";
         return Err(Failure::Usage(format!("--log is not for --kind {}; {right}", kind_name(args.kind))));
     }
@@ -142,7 +144,8 @@ pub(crate) fn run(args: &PlotArgs, quiet: bool, json: bool) -> Result<(), Failur
         (Kind::Slices, Some(first), _) => slices(first, setting),
         (Kind::Image, Some(first), _) => image(first, setting)?,
         (Kind::Terms, _, Some(first)) => terms(&first.name, &Facets::of(first)?),
-        (Kind::Compare | Kind::Surface | Kind::Slices | Kind::Image | Kind::Terms, ..) => {
+        (Kind::Samples, _, Some(first)) => samples::of(first, args.incidence)?,
+        (Kind::Compare | Kind::Surface | Kind::Slices | Kind::Image | Kind::Terms | Kind::Samples, ..) => {
             compare(args.q, args.incidence)
         }
     };
@@ -165,7 +168,7 @@ fn specs(args: &PlotArgs) -> Result<Vec<Material>, Failure> {
         Kind::Distribution => (&["ggx-plastic", "ggx-gold"], svg::SERIES),
         Kind::Surface => (&["glossy"], 1),
         Kind::Slices | Kind::Image => (&["ggx-plastic"], 1),
-        Kind::Terms => (&["ggx-gold"], 1),
+        Kind::Terms | Kind::Samples => (&["ggx-gold"], 1),
     };
     let given: Vec<&str> = args.specs.iter().chain(&args.brdf).map(String::as_str).collect();
     if given.len() > most {

@@ -26,7 +26,19 @@ const VIEWS: [(f64, f64); 5] = [(1.0, 0.0), (0.01, 75.0), (0.5, 30.0), (0.1, 120
 /// With [`Effort::QUICK`] half a minute of two cores, with [`Effort::FULL`] half an hour.
 #[must_use]
 pub fn models(effort: Effort) -> Suite {
-    let List { double, single } = List::new(effort);
+    selected(effort, |_| true)
+}
+
+/// [`models`], of one model alone.
+#[must_use]
+pub fn model(model: &Model, effort: Effort) -> Suite {
+    selected(effort, |name| name.split(' ').next() == Some(model.name))
+}
+
+fn selected(effort: Effort, wanted: impl Fn(&str) -> bool) -> Suite {
+    let List { mut double, mut single } = List::new(effort);
+    double.retain(|(name, _)| wanted(name));
+    single.retain(|(name, _)| wanted(name));
     let double: Vec<_> = double.iter().map(|(name, lobe)| (name.as_str(), InDouble(&**lobe))).collect();
     let single: Vec<_> = single.iter().map(|(name, lobe)| (name.as_str(), InSingle(&**lobe))).collect();
     let mut samplers: Vec<_> = double.iter().map(|(name, lobe)| (*name, lobe as &dyn Sampler)).collect();

@@ -43,7 +43,7 @@ mod suite;
 mod variance;
 mod view;
 
-pub use catalogue::models;
+pub use catalogue::{model, models};
 pub use claims::Claims;
 pub use random::Points;
 pub use report::{Case, Fit, Observed, Outcome, Property, Report, Suite, Verdict, View};
