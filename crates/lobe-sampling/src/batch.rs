@@ -6,7 +6,8 @@ use lobe::{Carry, Real, Rgb, Vec3};
 
 /// [`sample`](Sample::sample) of a lobe: `(l, weight, pdf)` for `(v, (u0, u1, u2))`.
 ///
-/// What masks say of a scalar is in the numbers: a rejected sample has the weight 0 and the density 0, a delta the density infinity.
+/// What masks say of a scalar is in the numbers: a rejected sample has the weight 0 and the density 0, a delta the
+/// density infinity.
 ///
 /// ```
 /// use lobe::batch::Batch;

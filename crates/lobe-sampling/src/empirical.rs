@@ -131,8 +131,8 @@ impl<R: Real> Draw<R> for LowMicrofacet<R> {
     }
 }
 
-/// GGX whose visible facets cover a lobe of about this width, and have a tail beyond it. The width is kept in the domain
-/// of `α`: below, the density leaves the range, and above 1 facets are not of use.
+/// GGX whose visible facets cover a lobe of about this width, and have a tail beyond it. The width is kept in the
+/// domain of `α`: below, the density leaves the range, and above 1 facets are not of use.
 #[inline(always)]
 fn facets<R: Real>(alpha: R) -> Ggx<R> {
     Ggx::new(Alpha(alpha.max(alpha.lift(1e-4)).min(alpha.lift(1.0))))

@@ -143,8 +143,8 @@ impl<R: Real, B: Sample<R>> Layers<R> for SheenLayer<B, R> {
     fn guesses(&self, v: Vec3<R>) -> (R, R) {
         let v = upwards(v);
         let left = self.transmitted(v, v);
-        // What the sheen takes of the base is what it reflects, in its brightest channel; its table is 0 where a sharp one
-        // reflects next to nothing, and yet it does.
+        // What the sheen takes of the base is what it reflects, in its brightest channel; its table is 0 where a sharp
+        // one reflects next to nothing, and yet it does.
         let least = self.sheen_color().luminance().times(1.0 / 256.0);
         ((left.lift(1.0) - left).max(least), SheenLayer::base(self).albedo_guess(v) * left)
     }

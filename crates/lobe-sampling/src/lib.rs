@@ -1,5 +1,5 @@
-//! Where the light that a lobe reflects to a viewer comes from, by chance: for each lobe of `lobe` a sample with its weight, the
-//! density of the samples, and the value, in any number type.
+//! Where the light that a lobe reflects to a viewer comes from, by chance: for each lobe of `lobe` a sample with its
+//! weight, the density of the samples, and the value, in any number type.
 //!
 //! ```
 //! use lobe::{Lambert, Rgb, Vec3};
@@ -38,8 +38,9 @@
 //!
 //! # Conventions
 //!
-//! Those of `lobe`: directions point away, in the local frame, `n = +z`. The viewer `v` is given and the light `l` is chosen, as a path
-//! from the camera has it; a reciprocal lobe serves the other way too. Densities are per solid angle of `l`, in sr⁻¹.
+//! Those of `lobe`: directions point away, in the local frame, `n = +z`. The viewer `v` is given and the light `l` is
+//! chosen, as a path from the camera has it; a reciprocal lobe serves the other way too. Densities are per solid angle
+//! of `l`, in sr⁻¹.
 
 #![no_std]
 #![forbid(unsafe_code)]

@@ -1,12 +1,13 @@
 //! Maps of the unit square onto what is to be sampled, and back.
 //!
-//! All are defined and finite for every `u` in `[0, 1)²`, 0 and the last number before 1 among them. What has a density has it as a
-//! function beside the map.
+//! All are defined and finite for every `u` in `[0, 1)²`, 0 and the last number before 1 among them. What has a density
+//! has it as a function beside the map.
 
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_4, PI, TAU};
 use lobe::{Frame, Real, Vec3};
 
-/// The disc of radius 1, evenly, from the square `[0, 1)²`: concentric, so that what is near in the square is near in the disc.
+/// The disc of radius 1, evenly, from the square `[0, 1)²`: concentric, so that what is near in the square is near in
+/// the disc.
 ///
 /// Shirley and Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997. Density `1/π`.
 #[inline(always)]
@@ -79,7 +80,8 @@ pub(crate) fn azimuth<R: Real>(u: R) -> (R, R) {
     (sin.copysign(-s), cos)
 }
 
-/// The radius of the point that [`concentric_disc`] makes of `u`: the longer of both sides, without the rounding of a root.
+/// The radius of the point that [`concentric_disc`] makes of `u`: the longer of both sides, without the rounding of a
+/// root.
 #[inline(always)]
 fn radius_of_disc<R: Real>(u: [R; 2]) -> R {
     let [x, y] = centred(u);
@@ -88,8 +90,8 @@ fn radius_of_disc<R: Real>(u: [R; 2]) -> R {
 
 /// The hemisphere around `+z`, in proportion to the cosine: `pdf = z/π` sr⁻¹.
 ///
-/// Malley's way: what is evenly on the disc is so under the projection. With `z` from `(1 − x)(1 + x)` of the radius, not from the
-/// difference of squares, so that the horizon keeps its digits.
+/// Malley's way: what is evenly on the disc is so under the projection. With `z` from `(1 − x)(1 + x)` of the radius,
+/// not from the difference of squares, so that the horizon keeps its digits.
 #[inline(always)]
 pub fn cosine_hemisphere<R: Real>(u: [R; 2]) -> Vec3<R> {
     let [x, y] = concentric_disc(u);
@@ -132,8 +134,8 @@ pub fn uniform_hemisphere_inverse<R: Real>(l: Vec3<R>) -> [R; 2] {
 
 /// A cap of the sphere: the directions within an angle of an axis, each as likely as any other.
 ///
-/// A cap is given by `1 − cos` of its half angle, which keeps its digits for a small one: that of a sun is 1.1e-5, of which
-/// `1 − 0.999989` in `f32` has lost all but two. From a sine: [`from_sin2`](Self::from_sin2).
+/// A cap is given by `1 − cos` of its half angle, which keeps its digits for a small one: that of a sun is 1.1e-5, of
+/// which `1 − 0.999989` in `f32` has lost all but two. From a sine: [`from_sin2`](Self::from_sin2).
 #[derive(Clone, Copy, Debug)]
 pub struct SphericalCap<R: Real> {
     frame: Frame<R>,
@@ -147,7 +149,8 @@ impl<R: Real> SphericalCap<R> {
         Self { frame: Frame::from_normal(axis), one_minus_cos }
     }
 
-    /// The cap of a half angle up to 90°, from the square of its sine: for a sphere of radius `r` at distance `d` that is `r²/d²`.
+    /// The cap of a half angle up to 90°, from the square of its sine: for a sphere of radius `r` at distance `d` that
+    /// is `r²/d²`.
     ///
     /// By `1 − cos = sin²/(1 + cos)`.
     #[inline(always)]
@@ -168,14 +171,16 @@ impl<R: Real> SphericalCap<R> {
         self.frame.to_world(cap_around_z(u, self.one_minus_cos))
     }
 
-    /// The `u` of which [`sample`](Self::sample) makes the direction `l`. For a small cap as many digits are lost as `l` has lost.
+    /// The `u` of which [`sample`](Self::sample) makes the direction `l`. For a small cap as many digits are lost as
+    /// `l` has lost.
     #[inline(always)]
     pub fn inverse(&self, l: Vec3<R>) -> [R; 2] {
         cap_around_z_inverse(self.frame.to_local(l), self.one_minus_cos)
     }
 }
 
-/// With the distance `r` from the middle of the disc, `1 − z = r² q` and `sin = r √(q (2 − r² q))`: no difference of nearly equals.
+/// With the distance `r` from the middle of the disc, `1 − z = r² q` and `sin = r √(q (2 − r² q))`: no difference of
+/// nearly equals.
 #[inline(always)]
 fn cap_around_z<R: Real>(u: [R; 2], one_minus_cos: R) -> Vec3<R> {
     let [x, y] = concentric_disc(u);
@@ -193,10 +198,10 @@ fn cap_around_z_inverse<R: Real>(l: Vec3<R>, one_minus_cos: R) -> [R; 2] {
 
 /// A triangle on the sphere, its directions evenly.
 ///
-/// Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995, for the way; the solid angle by Van Oosterom and Strackee, "The
-/// Solid Angle of a Plane Triangle", 1983, and the edges by half vectors (Peters, "BRDF Importance Sampling for Polygonal Lights",
-/// SIGGRAPH 2021). Arvo's sum of three angles less π, and his arc cosines, have no digits left for a small triangle; here nothing
-/// cancels but the determinant of the corners.
+/// Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995, for the way; the solid angle by Van Oosterom and
+/// Strackee, "The Solid Angle of a Plane Triangle", 1983, and the edges by half vectors (Peters, "BRDF Importance
+/// Sampling for Polygonal Lights", SIGGRAPH 2021). Arvo's sum of three angles less π, and his arc cosines, have no
+/// digits left for a small triangle; here nothing cancels but the determinant of the corners.
 #[derive(Clone, Copy, Debug)]
 pub struct SphericalTriangle<R> {
     a: Vec3<R>,
@@ -208,7 +213,8 @@ pub struct SphericalTriangle<R> {
 }
 
 impl<R: Real> SphericalTriangle<R> {
-    /// The triangle of three unit vectors, in either order. It is the smaller of the two that they bound, and less than a hemisphere.
+    /// The triangle of three unit vectors, in either order. It is the smaller of the two that they bound, and less than
+    /// a hemisphere.
     #[inline(always)]
     pub fn new(a: Vec3<R>, b: Vec3<R>, c: Vec3<R>) -> Self {
         // Of the edges, not of the corners: |a·((b − a) × (c − a))| is the same, and small vectors have small products.
@@ -231,14 +237,15 @@ impl<R: Real> SphericalTriangle<R> {
 
     /// A direction of the triangle.
     ///
-    /// The first number cuts off a triangle `a, b, c'` of that part of the solid angle, with `c'` on the edge from `a` to `c`: the
-    /// tangent of half its angle is `y d/(x (1 + a·b) + y (a·c + b·c))` for the half vector `x a + y c` of `a` and `c'`. The second
-    /// goes along the arc from `b` to `c'`, evenly in `1 − cos`.
+    /// The first number cuts off a triangle `a, b, c'` of that part of the solid angle, with `c'` on the edge from `a`
+    /// to `c`: the tangent of half its angle is `y d/(x (1 + a·b) + y (a·c + b·c))` for the half vector `x a + y c` of
+    /// `a` and `c'`. The second goes along the arc from `b` to `c'`, evenly in `1 − cos`.
     #[inline(always)]
     pub fn sample(&self, [x, y]: [R; 2]) -> Vec3<R> {
         let (det, along, base) = self.terms;
         let (sin, cos) = (self.solid_angle * x).times(0.5).sin_cos();
-        // Where the triangle has no area both terms are 0, and so would be the half vector: then it is a (see the test).
+        // Where the triangle has no area both terms are 0, and so would be the half vector: then it is a (see the
+        // test).
         let scale = (det * cos - along * sin, base * sin);
         let flat = (scale.0.abs() + scale.1.abs()).eq(det.lift(0.0));
         let half = self.a * R::select(flat, det.lift(1.0), scale.0) + self.c * scale.1;

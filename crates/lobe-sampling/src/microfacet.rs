@@ -145,7 +145,8 @@ where
         let up = upwards(v);
         let l = self.method.light(distribution, up, [x, y]);
         let nan = nan_of(v, [choice, x, y]) + (l.x + l.y + l.z).times(0.0);
-        // Of the direction as it is rounded, not of the facet that was drawn: so the density of the sample is that of `pdf`.
+        // Of the direction as it is rounded, not of the facet that was drawn: so the density of the sample is that of
+        // `pdf`.
         let specular = Specular::new(distribution, masking, &self.method, l, up);
         let weight = self.lobe.fresnel().fresnel(specular.incidence) * specular.weight * self.factor + Rgb::splat(nan);
         Sampled::new(l, weight, specular.pdf + nan, l.z.min(v.z).le(nan))
@@ -164,7 +165,8 @@ where
     #[inline(always)]
     fn albedo_guess(&self, v: Vec3<R>) -> R {
         let seen = (self.lobe.fresnel().fresnel(incidence_of(v)) * self.factor).luminance();
-        // A term that is 0 at one angle is not at others: without this a part that a mixture needs would never be chosen.
+        // A term that is 0 at one angle is not at others: without this a part that a mixture needs would never be
+        // chosen.
         seen.max(self.factor.luminance().times(1.0 / 256.0))
     }
 }

@@ -1,13 +1,13 @@
-//! Weights for several samplers of one integral (Veach and Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering",
-//! SIGGRAPH 1995).
+//! Weights for several samplers of one integral (Veach and Guibas, "Optimally Combining Sampling Techniques for Monte
+//! Carlo Rendering", SIGGRAPH 1995).
 
 use lobe::Real;
 
-/// The balance heuristic, for one sample of either: `a/(a + b)`, `a` the density of the sampler that the sample is from, `b` that of
-/// the other. 0 for `a = 0`. Equation 10 of Veach and Guibas.
+/// The balance heuristic, for one sample of either: `a/(a + b)`, `a` the density of the sampler that the sample is
+/// from, `b` that of the other. 0 for `a = 0`. Equation 10 of Veach and Guibas.
 ///
-/// Written as a quotient of densities, so that neither a sum nor a square leaves the range: a sampler of a sharp lobe has
-/// densities beyond 1e30.
+/// Written as a quotient of densities, so that neither a sum nor a square leaves the range: a sampler of a sharp lobe
+/// has densities beyond 1e30.
 #[inline(always)]
 pub fn balance<R: Real>(a: R, b: R) -> R {
     share(a, b, |ratio| ratio)

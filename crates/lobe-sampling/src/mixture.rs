@@ -6,9 +6,9 @@ use lobe::{Real, Rgb, Sum, Vec3};
 
 /// The least part of the samples that each of two lobes gets, if it reflects anything.
 ///
-/// Guesses are wrong, and where a lobe that is drawn too seldom is the bright one, weights are `1/probability`. With this floor the
-/// weight of a sample is at most 16 times the larger of both lobes' own; without it a lobe whose guess vanishes next to the other's would
-/// hardly be drawn at all, while its value is there (test `no_part_is_starved`).
+/// Guesses are wrong, and where a lobe that is drawn too seldom is the bright one, weights are `1/probability`. With
+/// this floor the weight of a sample is at most 16 times the larger of both lobes' own; without it a lobe whose guess
+/// vanishes next to the other's would hardly be drawn at all, while its value is there (test `no_part_is_starved`).
 const FLOOR: f64 = 1.0 / 16.0;
 
 /// The probability of the first of two lobes with these guesses.
@@ -77,11 +77,13 @@ impl<R: Real> Part<R> {
     }
 }
 
-/// A sample of a lobe with two parts: `u[0]` chooses between them by their guesses, and what is left of it goes to the part.
+/// A sample of a lobe with two parts: `u[0]` chooses between them by their guesses, and what is left of it goes to the
+/// part.
 ///
-/// The value and the density at the direction are those of the whole, as `whole` says; the weight is their quotient. Neither leaves
-/// the range of `f32` where the lobes' own do not: no product of densities is formed. It is the one-sample model of Veach and Guibas
-/// 1995, section 4, with the balance heuristic. A delta has its own weight over the probability of its part.
+/// The value and the density at the direction are those of the whole, as `whole` says; the weight is their quotient.
+/// Neither leaves the range of `f32` where the lobes' own do not: no product of densities is formed. It is the
+/// one-sample model of Veach and Guibas 1995, section 4, with the balance heuristic. A delta has its own weight over
+/// the probability of its part.
 #[inline(always)]
 pub(crate) fn one_of_two<R: Real>(
     v: Vec3<R>,
@@ -107,7 +109,8 @@ pub(crate) fn one_of_two<R: Real>(
     let scattered = value / R::select(no_density, one, pdf);
     let weight = Rgb::select(part.delta, part.weight / chosen, scattered) + Rgb::splat(nan);
     let below = part.l.z.min(v.z).le(nan);
-    // Where the density is 0 and it is no delta, the direction is on the horizon or in no lobe's reach: the value is 0 too.
+    // Where the density is 0 and it is no delta, the direction is on the horizon or in no lobe's reach: the value is 0
+    // too.
     let rejected = (part.rejected & nan.eq(zero)) | below | (no_density & !part.delta & nan.eq(zero));
     let sampled = Sampled::new(part.l, weight, R::select(part.delta, zero, pdf) + nan, rejected);
     Sampled { delta: part.delta & !rejected, ..sampled }
@@ -116,9 +119,9 @@ pub(crate) fn one_of_two<R: Real>(
 /// The last number of `f32` before 1.
 const LAST: f64 = 1.0 - 1.0 / 16_777_216.0;
 
-/// One of both is drawn, in proportion to what they are guessed to reflect, at least every sixteenth time. The density is that of the
-/// mixture, so that a direction that both lobes could have drawn counts right whichever did: no weight is larger than 16 times the
-/// larger of both lobes' own there.
+/// One of both is drawn, in proportion to what they are guessed to reflect, at least every sixteenth time. The density
+/// is that of the mixture, so that a direction that both lobes could have drawn counts right whichever did: no weight
+/// is larger than 16 times the larger of both lobes' own there.
 impl<R: Real, A: Sample<R>, B: Sample<R>> Sample<R> for Sum<A, B> {
     #[inline(always)]
     fn sample(&self, v: Vec3<R>, u: [R; 3]) -> Sampled<R> {

@@ -7,8 +7,8 @@ use lobe::{Real, Rgb, Vec3};
 /// For every lobe, in every number type:
 ///
 /// - `weight = f_r(l, v) (n·l)/pdf(l, v)`, in a form that does not divide a large number by another;
-/// - `u` are three numbers of `[0, 1)`, the first for choices among lobes, the others for the direction. Every result is finite
-///   for each of them: 0, the last number before 1, subnormal numbers;
+/// - `u` are three numbers of `[0, 1)`, the first for choices among lobes, the others for the direction. Every result
+///   is finite for each of them: 0, the last number before 1, subnormal numbers;
 /// - a viewer below the horizon (`v.z ≤ 0`) gets a rejected sample; NaN in `v` or in `u` gives a NaN weight.
 ///
 /// The trait can be made into an object: `&dyn Sample<f32>`.
@@ -16,16 +16,16 @@ pub trait Sample<R: Real> {
     /// A direction of light for the viewer `v`, with its weight and its density.
     fn sample(&self, v: Vec3<R>, u: [R; 3]) -> Sampled<R>;
 
-    /// The density in sr⁻¹ with which [`sample`](Self::sample) gives `l`, 0 below the horizon. It integrates to 1 less the
-    /// mass that is rejected or that goes into deltas.
+    /// The density in sr⁻¹ with which [`sample`](Self::sample) gives `l`, 0 below the horizon. It integrates to 1 less
+    /// the mass that is rejected or that goes into deltas.
     fn pdf(&self, l: Vec3<R>, v: Vec3<R>) -> R;
 
-    /// [`eval_cos`](lobe::Brdf::eval_cos) and [`pdf`](Self::pdf), which have much in common: what a renderer needs that weighs several
-    /// samplers, see [`mis`](crate::mis). Of a delta both are 0.
+    /// [`eval_cos`](lobe::Brdf::eval_cos) and [`pdf`](Self::pdf), which have much in common: what a renderer needs that
+    /// weighs several samplers, see [`mis`](crate::mis). Of a delta both are 0.
     fn eval_cos_pdf(&self, l: Vec3<R>, v: Vec3<R>) -> (Rgb<R>, R);
 
-    /// About how much of the light is reflected to `v`, as luminance: what a sum of lobes divides its samples by. Not negative and
-    /// finite, but no more than a guess.
+    /// About how much of the light is reflected to `v`, as luminance: what a sum of lobes divides its samples by. Not
+    /// negative and finite, but no more than a guess.
     fn albedo_guess(&self, v: Vec3<R>) -> R;
 }
 
@@ -48,13 +48,14 @@ impl<R: Real, B: Sample<R> + ?Sized> Sample<R> for &B {
     }
 }
 
-/// A sample: a direction of light and what it counts for, or none. In lanes each point has its own case, told by two masks; of
-/// a scalar [`outcome`](Self::outcome) makes an `enum`.
+/// A sample: a direction of light and what it counts for, or none. In lanes each point has its own case, told by two
+/// masks; of a scalar [`outcome`](Self::outcome) makes an `enum`.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampled<R: Real> {
     /// Where the light comes from: a unit vector, of a rejected sample too.
     pub l: Vec3<R>,
-    /// What the radiance from there counts for: `f_r (n·l)/pdf`, of a delta its reflectance. 0 where the sample is rejected.
+    /// What the radiance from there counts for: `f_r (n·l)/pdf`, of a delta its reflectance. 0 where the sample is
+    /// rejected.
     pub weight: Rgb<R>,
     /// The density in sr⁻¹; 0 where the sample is rejected or a delta.
     pub pdf: R,
@@ -65,7 +66,8 @@ pub struct Sampled<R: Real> {
 }
 
 impl<R: Real> Sampled<R> {
-    /// A sample with a density, or none where the mask is true. Where a weight is NaN, it is no rejection that hides it.
+    /// A sample with a density, or none where the mask is true. Where a weight is NaN, it is no rejection that hides
+    /// it.
     #[inline(always)]
     pub fn new(l: Vec3<R>, weight: Rgb<R>, pdf: R, rejected: R::Mask) -> Self {
         let zero = pdf.lift(0.0);

@@ -38,8 +38,8 @@ pub(crate) fn exp_m1<R: Real>(x: R) -> R {
 
 /// The inverse of the error function, for arguments whose magnitude is below 1; in `f32` and `f64` within 5e-7 of it.
 ///
-/// Giles, "Approximating the erfinv Function", GPU Computing Gems, 2011, the polynomials in single precision. Both are computed
-/// and one is selected.
+/// Giles, "Approximating the erfinv Function", GPU Computing Gems, 2011, the polynomials in single precision. Both are
+/// computed and one is selected.
 #[inline(always)]
 pub(crate) fn erf_inv<R: Real>(x: R) -> R {
     let one = x.lift(1.0);

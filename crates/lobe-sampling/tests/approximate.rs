@@ -11,7 +11,8 @@ use lobe::{Alpha, Carry, Lambert, Microfacet, Real, Rgb, Sum, Vec3};
 use lobe_sampling::facets::{ByDistribution, Caps, ProjectedDisc};
 use lobe_sampling::{Sample, SampleBy};
 
-/// At every end of the square the sample is finite; of viewers from 0.1 up and away from the ends it is near that of `f32`.
+/// At every end of the square the sample is finite; of viewers from 0.1 up and away from the ends it is near that of
+/// `f32`.
 fn near<P, L>(name: &str, lobe: &L, bound: f32)
 where
     L: Sample<f32> + Carry,

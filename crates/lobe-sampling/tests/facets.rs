@@ -198,7 +198,8 @@ fn a_nan_shows_and_below_the_horizon_there_is_nothing() {
     }
 }
 
-/// What each method is for: of a rough surface the bounded one rejects least, and by the distribution alone weights grow.
+/// What each method is for: of a rough surface the bounded one rejects least, and by the distribution alone weights
+/// grow.
 #[test]
 fn methods_differ_as_they_should() {
     let white = Schlick::new(Rgb::splat(1.0));

@@ -32,8 +32,8 @@ pub trait SampleNormals<R: Real>: Distribution<R> + Sized {
 
 /// Facets by the distribution alone, `D (n·h)`, whether they are seen or not: density of the light `D (n·h)/(4 l·h)`.
 ///
-/// For every distribution; Walter et al. 2007, equations 35 to 41. Towards grazing views most facets drawn are hidden and the weights
-/// `F G (l·h)/((n·v)(n·h))` grow without bound.
+/// For every distribution; Walter et al. 2007, equations 35 to 41. Towards grazing views most facets drawn are hidden
+/// and the weights `F G (l·h)/((n·v)(n·h))` grow without bound.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ByDistribution;
 
@@ -60,7 +60,8 @@ fn of_slopes<R: Real>(x: R, y: R) -> Vec3<R> {
     Vec3::new(x, y, x.lift(1.0)).normalize()
 }
 
-/// The direction at the azimuth `2π x` of an ellipse with the half axes `αx`, `αy`: its points, and its square radius there.
+/// The direction at the azimuth `2π x` of an ellipse with the half axes `αx`, `αy`: its points, and its square radius
+/// there.
 #[inline(always)]
 fn ellipse<R: Real>((x, y): (Alpha<R>, Alpha<R>), turn: R) -> (R, R, R) {
     let (sin, cos) = azimuth(turn);
@@ -118,8 +119,8 @@ impl<R: Real> SampleNormals<R> for StudentT<R> {
 
 impl<R: Real> SampleNormals<R> for PhongPower<R> {
     type Method = ByDistribution;
-    /// `cos² θ = (1 − u)^(α²)`, which is `(1 − u)^(2/(q + 2))`, with `α` that of the azimuth (Ashikhmin and Shirley 2000, equations 9
-    /// and 10, over the whole turn).
+    /// `cos² θ = (1 − u)^(α²)`, which is `(1 − u)^(2/(q + 2))`, with `α` that of the azimuth (Ashikhmin and Shirley
+    /// 2000, equations 9 and 10, over the whole turn).
     ///
     /// As a slope, `tan² θ = (1 − u)^(−α²) − 1`, so that a sharp lobe keeps its digits.
     #[inline(always)]
@@ -143,7 +144,8 @@ fn width_at<R: Real>((x, y): (Alpha<R>, Alpha<R>), h: Vec3<R>) -> R {
     R::select(normal, x.0.squared(), r2 / R::select(normal, r2.lift(1.0), stretched))
 }
 
-/// `(1 − A^(γ − 1))/(γ − 1)` for `A = α²`, as `−ln A φ((γ − 1) ln A)` with `φ(x) = (eˣ − 1)/x`, which has the limit `γ = 1` in it.
+/// `(1 − A^(γ − 1))/(γ − 1)` for `A = α²`, as `−ln A φ((γ − 1) ln A)` with `φ(x) = (eˣ − 1)/x`, which has the limit
+/// `γ = 1` in it.
 #[inline(always)]
 fn gtr_terms<R: Real>(a2: R, gamma: R) -> R {
     // 1 − A is exact from 1/2 on, and there the logarithm of a number near 1 is to its last digits.
@@ -154,8 +156,8 @@ fn gtr_terms<R: Real>(a2: R, gamma: R) -> R {
 
 impl<R: Real> SampleNormals<R> for Gtr<R> {
     type Method = ByDistribution;
-    /// With `A = α²` and `y = 1 + sin² θ (1/A − 1)`, `y^(1 − γ)` is even between 1 and `A^(γ − 1)` (Burley 2012, appendix B, equation
-    /// 9; for `γ = 1` its limit, `ln y` even).
+    /// With `A = α²` and `y = 1 + sin² θ (1/A − 1)`, `y^(1 − γ)` is even between 1 and `A^(γ − 1)` (Burley 2012,
+    /// appendix B, equation 9; for `γ = 1` its limit, `ln y` even).
     ///
     /// In a form that has the limit in it: `ln y = w ln(1 + x)/x`, `w = u (1 − A^(γ − 1))/(γ − 1)`, `x = −(γ − 1) w`.
     #[inline(always)]
@@ -174,8 +176,8 @@ impl<R: Real> SampleNormals<R> for Gtr<R> {
         Vec3::new(ax * r, ay * r, (one - sin2).sqrt())
     }
 
-    /// With two widths the azimuth is drawn as that of an ellipse, and the factor between its distribution and that of the facets
-    /// is here; with one it is 1.
+    /// With two widths the azimuth is drawn as that of an ellipse, and the factor between its distribution and that of
+    /// the facets is here; with one it is 1.
     #[inline(always)]
     fn normal_area(&self, h: Vec3<R>) -> R {
         let (x, y) = self.alpha();
@@ -221,7 +223,8 @@ fn inside<R: Real>(a2: R) -> R {
     a2.lift(1.0) - (a2.lift(-FRAC_PI_2 * FRAC_PI_2) / a2).exp()
 }
 
-/// The squares of the sines of the nodes of a table, one after the other, by `cos (i + 1)x = 2 cos x cos ix − cos (i − 1)x`.
+/// The squares of the sines of the nodes of a table, one after the other, by
+/// `cos (i + 1)x = 2 cos x cos ix − cos (i − 1)x`.
 #[inline(always)]
 fn squared_sines(count: usize) -> impl Iterator<Item = f64> {
     let double = 2.0 * libm::cos(PI / (count - 1) as f64);
@@ -238,8 +241,9 @@ fn squared_sines(count: usize) -> impl Iterator<Item = f64> {
 
 /// Calls `f` with the start in `sin² θ`, the length and the height of each step between two nodes.
 ///
-/// The height is the mean of both values and 1/1024 of the mean of all: without that a step without facets beside one with some
-/// would have the density 0 for a facet at their border that rounds the wrong way, and its weight would be infinite.
+/// The height is the mean of both values and 1/1024 of the mean of all: without that a step without facets beside one
+/// with some would have the density 0 for a facet at their border that rounds the wrong way, and its weight would be
+/// infinite.
 #[inline(always)]
 fn steps<R: Real, const N: usize>(table: &Tabulated<R, N>, mut f: impl FnMut(f64, f64, R)) {
     let values = table.values();
@@ -265,8 +269,8 @@ fn total<R: Real, const N: usize>(table: &Tabulated<R, N>, witness: R) -> R {
 
 impl<R: Real, const N: usize> SampleNormals<R> for Tabulated<R, N> {
     type Method = ByDistribution;
-    /// By a step function of `sin² θ` with the mean of the values at both ends. The sum goes over all steps, of which one is
-    /// selected: nothing is indexed by a value.
+    /// By a step function of `sin² θ` with the mean of the values at both ends. The sum goes over all steps, of which
+    /// one is selected: nothing is indexed by a value.
     #[inline(always)]
     fn sample_normal(&self, [turn, u]: [R; 2]) -> Vec3<R> {
         let (zero, one) = (u.lift(0.0), u.lift(1.0));
@@ -317,8 +321,8 @@ impl<R: Real, D: SampleNormals<R>, const N: usize> SampleNormals<R> for SmithTab
     fn normal_area(&self, h: Vec3<R>) -> R {
         self.distribution().normal_area(h)
     }
-    /// That of the distribution: of one that is drawn where `D` is 0 the area is 0 there, and the quotient 0/0 (lobe `tabulated,
-    /// smith` of the tests).
+    /// That of the distribution: of one that is drawn where `D` is 0 the area is 0 there, and the quotient 0/0 (lobe
+    /// `tabulated, smith` of the tests).
     #[inline(always)]
     fn normal_pdf(&self, h: Vec3<R>, d: R) -> R {
         self.distribution().normal_pdf(h, d)

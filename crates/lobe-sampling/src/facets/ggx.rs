@@ -28,23 +28,24 @@ impl<R: Real> StretchedSphere<R> for GgxAnisotropic<R> {
 
 /// GGX by visible normals, by the sphere's projection onto a disc.
 ///
-/// Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018. Density of the light `D G₁(v)/(4 n·v)`, which is
-/// `D/(4 (1 + Λ(v)) cos θ_v)`, finite to the horizon.
+/// Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018. Density of the light `D G₁(v)/(4 n·v)`,
+/// which is `D/(4 (1 + Λ(v)) cos θ_v)`, finite to the horizon.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ProjectedDisc;
 
 /// GGX by visible normals, by a cap of the sphere of mirrored directions.
 ///
-/// Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023. The density is that of [`ProjectedDisc`], for
-/// fewer operations.
+/// Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023. The density is that of
+/// [`ProjectedDisc`], for fewer operations.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Caps;
 
 /// GGX by visible normals without most of those that reflect below the horizon.
 ///
-/// Eto and Tokuyoshi, "Bounded VNDF Sampling for Smith-GGX Reflections", SIGGRAPH Asia 2023 Technical Communications: the cap of
-/// [`Caps`] ends at a lower bound of the horizon, `z ≥ −k z_v` with `k = (1 − a²) s²/(s² + a² (n·v)²)`, `a` the smaller width and
-/// `s = 1 + |(v.x, v.y)|`, their equations 5 and 6. Density of the light `D/(2 (k n·v + t))`, `t = √((αx v.x)² + (αy v.y)² + v.z²)`.
+/// Eto and Tokuyoshi, "Bounded VNDF Sampling for Smith-GGX Reflections", SIGGRAPH Asia 2023 Technical Communications:
+/// the cap of [`Caps`] ends at a lower bound of the horizon, `z ≥ −k z_v` with `k = (1 − a²) s²/(s² + a² (n·v)²)`, `a`
+/// the smaller width and `s = 1 + |(v.x, v.y)|`, their equations 5 and 6. Density of the light `D/(2 (k n·v + t))`,
+/// `t = √((αx v.x)² + (αy v.y)² + v.z²)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bounded;
 

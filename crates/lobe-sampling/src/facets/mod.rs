@@ -7,8 +7,8 @@
 //! | [`VisibleSlopes`] | Beckmann; the default | `D max(0, v·h)` | `D G₁(v)/(4 n·v)` |
 //! | [`ByDistribution`] | every distribution; the default elsewhere | `D (n·h)` | `D (n·h)/(4 l·h)` |
 //!
-//! A density is `D(h)` over something that is smooth and of moderate size, the [`area`](Facets::area). So the weight of a sample is
-//! `F · (n·l) G/(4 (n·l)(n·v)) · area`: `D`, which may be 1e30, is in neither numerator nor denominator.
+//! A density is `D(h)` over something that is smooth and of moderate size, the [`area`](Facets::area). So the weight of
+//! a sample is `F · (n·l) G/(4 (n·l)(n·v)) · area`: `D`, which may be 1e30, is in neither numerator nor denominator.
 
 mod by_distribution;
 mod ggx;
@@ -22,8 +22,8 @@ use lobe::{Facet, Real, Vec3};
 
 /// A way to draw a facet of the distribution `D`.
 ///
-/// The density of the light that the facet mirrors to `v` is `D(h)/area`, for all light above the horizon: an implementation must
-/// not give 0 where the lobe is not.
+/// The density of the light that the facet mirrors to `v` is `D(h)/area`, for all light above the horizon: an
+/// implementation must not give 0 where the lobe is not.
 pub trait Facets<R: Real, D> {
     /// The unit normal of a facet for a viewer above the horizon, `v.z ≥ 0`, from two numbers of `[0, 1)`.
     fn normal(&self, distribution: &D, v: Vec3<R>, u: [R; 2]) -> Vec3<R>;

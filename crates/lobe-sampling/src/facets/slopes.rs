@@ -1,4 +1,5 @@
-//! Beckmann by visible normals: the slopes that a viewer sees, by a fixed number of steps to the inverse of their distribution.
+//! Beckmann by visible normals: the slopes that a viewer sees, by a fixed number of steps to the inverse of their
+//! distribution.
 
 use super::Facets;
 use crate::special::erf_inv;
@@ -8,11 +9,11 @@ use lobe::{Facet, Real, Vec3};
 
 /// Beckmann by visible normals: density of the light `D G₁(v)/(4 n·v)`, which is `D/(4 (1 + Λ(v)) cos θ_v)`.
 ///
-/// Heitz and d'Eon, "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals", EGSR 2014, section 4.2:
-/// with widths of 1 the slope across is normally distributed, and the slope `x` along the view has the density
-/// `(cos θ − x sin θ) exp(−x²)/√π` up to `cot θ`. Its distribution has no inverse in closed form. It is solved for `erf x` from a
-/// first guess, both after Jakob, "An Improved Visible Normal Sampling Routine for the Beckmann Distribution", 2014: five steps of
-/// Newton's method, each halved where it would leave the bracket.
+/// Heitz and d'Eon, "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals", EGSR 2014,
+/// section 4.2: with widths of 1 the slope across is normally distributed, and the slope `x` along the view has the
+/// density `(cos θ − x sin θ) exp(−x²)/√π` up to `cot θ`. Its distribution has no inverse in closed form. It is solved
+/// for `erf x` from a first guess, both after Jakob, "An Improved Visible Normal Sampling Routine for the Beckmann
+/// Distribution", 2014: five steps of Newton's method, each halved where it would leave the bracket.
 ///
 /// What is drawn has the distribution to 8e-7 of it in `f32`, in `f64` for `u` up to `1 − 1e-13` (test
 /// `the_slopes_have_their_distribution`), and ends at a slope of 3.8 widths, beyond which

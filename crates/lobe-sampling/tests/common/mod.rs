@@ -93,7 +93,8 @@ pub(crate) fn density_is_normalised(name: &str, sampler: &dyn Sample<f64>, v: Ve
     assert!(error.abs() < 1e-3, "{name} at {v:?}: {integral} + {rejected} + {deltas}");
 }
 
-/// The density of a sample is what `pdf` says, value over density is its weight, to `bound`, and the value is the lobe's.
+/// The density of a sample is what `pdf` says, value over density is its weight, to `bound`, and the value is the
+/// lobe's.
 pub(crate) fn samples_are_consistent(name: &str, lobe: &dyn Lobe<f64>, v: Vec3<f64>, bound: f64) {
     let mut scattered = 0;
     for u in points(4096) {
@@ -175,7 +176,8 @@ pub(crate) const ENDS: [f64; 6] = [0.0, 1e-40, 1.0 / 16_777_216.0, 0.5, 0.750_00
 /// Viewers, down to the horizon.
 pub(crate) const COSINES: [f64; 7] = [1.0, 0.999_999, 0.7, 0.1, 1e-3, 1e-6, 1e-20];
 
-/// At every corner of the square, for every viewer, a sample is finite, its weight not negative and its direction a unit vector.
+/// At every corner of the square, for every viewer, a sample is finite, its weight not negative and its direction a
+/// unit vector.
 pub(crate) fn ends_are_finite<R: Real<Mask = bool> + Into<f64>>(name: &str, sampler: &dyn Sample<R>, witness: R) {
     let number = |x: f64| witness.lift(x);
     let epsilon = if number(1.0 + 1e-12).into() == 1.0 { 2e-6 } else { 1e-14 };
@@ -206,7 +208,8 @@ pub(crate) fn ends_are_finite<R: Real<Mask = bool> + Into<f64>>(name: &str, samp
     }
 }
 
-/// A NaN in a component of the viewer or of `u` shows in the weight and in no other way; below the horizon nothing is drawn.
+/// A NaN in a component of the viewer or of `u` shows in the weight and in no other way; below the horizon nothing is
+/// drawn.
 pub(crate) fn nan_shows_and_below_is_nothing<R: Real<Mask = bool> + Into<f64>>(
     name: &str,
     sampler: &dyn Sample<R>,

@@ -15,11 +15,12 @@ use lobe_sampling::{ByCosine, SampleBy};
 /// Cosine and azimuth of the views: along the normal, grazing and oblique, and between.
 const VIEWS: [(f64, f64); 5] = [(1.0, 0.0), (0.01, 75.0), (0.5, 30.0), (0.1, 120.0), (0.9, 210.0)];
 
-/// [`verify_all`] of the samplers of this workspace, at the first [`Effort::views`] of five views with cosines from 1 to 0.01:
+/// [`verify_all`] of the samplers of this workspace, at the first [`Effort::views`] of five views with cosines from 1
+/// to 0.01:
 ///
-/// - [`Effort::lobes`] lobes of each model of the catalogue or more, so that each value that counts for a sampler is there: each
-///   word of a choice, widths of 1e-3, 0.05, 0.3 and 1 and aspects to 16, exponents from 0 to 1e6, roughness from 0.1 to 1; of
-///   `microfacet`, whose distributions and maskings are many, six times as many;
+/// - [`Effort::lobes`] lobes of each model of the catalogue or more, so that each value that counts for a sampler is
+///   there: each word of a choice, widths of 1e-3, 0.05, 0.3 and 1 and aspects to 16, exponents from 0 to 1e6,
+///   roughness from 0.1 to 1; of `microfacet`, whose distributions and maskings are many, six times as many;
 /// - the sharp ones among them in `f32` too, and an ordinary one;
 /// - GGX by each way to draw its facets, mixtures of up to four lobes, with a mirror too, and coats.
 ///
@@ -100,8 +101,9 @@ fn name(lobe: &Lobe) -> String {
     std::iter::once(lobe.model().name.to_owned()).chain(parts).collect()
 }
 
-/// At most `most` lobes, of which more than one are at least as many as a parameter has values: each value comes as often as any
-/// other of its parameter, in an order of its own. Of a model with more than twenty words, `microfacet`, six times as many.
+/// At most `most` lobes, of which more than one are at least as many as a parameter has values: each value comes as
+/// often as any other of its parameter, in an order of its own. Of a model with more than twenty words, `microfacet`,
+/// six times as many.
 fn lobes(model: &'static Model, most: usize) -> Vec<Lobe> {
     let mut axes: Vec<_> = model.parameters.iter().map(|parameter| values(model, parameter)).collect();
     let words = model.parameters.iter().map(|parameter| match parameter.kind {

@@ -5,8 +5,8 @@ use crate::subject::Precision;
 /// What is claimed beyond the statistics, which are claimed of everything.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Claims {
-    /// The density that comes with a sample is `pdf(l, v)` to this relative error, beyond what the rounding of `l` explains;
-    /// `None` for 1e-9 in `f64` and 1e-4 in `f32`.
+    /// The density that comes with a sample is `pdf(l, v)` to this relative error, beyond what the rounding of `l`
+    /// explains; `None` for 1e-9 in `f64` and 1e-4 in `f32`.
     pub pdf: Option<f64>,
     /// The weight is `f_r (n·l)/pdf` to this relative error, beyond what the rounding of `l` explains; `None` as above.
     pub weight: Option<f64>,

@@ -8,7 +8,8 @@ use rayon::prelude::*;
 
 /// So many samples are drawn from one stream. The streams do not depend on how many threads there are.
 const CHUNK: usize = 1 << 12;
-/// The first stream of each purpose: what shows the way, the shifts of the sequence, single inputs; from 16 on the test.
+/// The first stream of each purpose: what shows the way, the shifts of the sequence, single inputs; from 16 on the
+/// test.
 const PILOT: u64 = 0;
 const SHIFTS: u64 = 1;
 pub(crate) const SINGLE: u64 = 2;

@@ -1,5 +1,5 @@
-//! The statistics that would notice a wrong sampler, for anything that samples: a lobe of [`lobe_sampling`], or a user's own
-//! as closures.
+//! The statistics that would notice a wrong sampler, for anything that samples: a lobe of [`lobe_sampling`], or a
+//! user's own as closures.
 //!
 //! ```
 //! use lobe::{Lambert, Rgb};
@@ -21,9 +21,9 @@
 //! | mean weight | against [`directional_albedo`](lobe_energy::directional_albedo()), within its standard error |
 //! | albedo | over the sequence, per channel, to 1e-3 where its standard error allows to tell |
 //!
-//! The tests that have a `p` share one significance, however many samplers and views there are: a suite of true samplers
-//! raises a false alarm once in a thousand, as a whole (Holm's correction). Seeds are hashes of the names, so that nobody picks one,
-//! and the numbers do not depend on threads.
+//! The tests that have a `p` share one significance, however many samplers and views there are: a suite of true
+//! samplers raises a false alarm once in a thousand, as a whole (Holm's correction). Seeds are hashes of the names, so
+//! that nobody picks one, and the numbers do not depend on threads.
 //!
 //! [`models`] is that suite of all samplers of this workspace.
 //!
@@ -69,8 +69,8 @@ pub struct Effort {
     pub tolerance: f64,
     /// The most cells that it may have before it is cut into bins.
     pub cells: usize,
-    /// To what two quadratures of the albedo have to agree; see [`lobe_energy::directional_albedo_to`]. Where they do not, that of
-    /// the cells is taken, which knows where the samples are.
+    /// To what two quadratures of the albedo have to agree; see [`lobe_energy::directional_albedo_to`]. Where they do
+    /// not, that of the cells is taken, which knows where the samples are.
     pub agreement: f64,
     /// The chance of any false alarm of the whole suite.
     pub significance: f64,
@@ -115,10 +115,11 @@ pub fn views() -> [[f64; 3]; 3] {
     [view(1.0, 0.0), view(0.5, 30.0), view(0.01, 75.0)]
 }
 
-/// Looks for all properties of one sampler at three views, with the claims that samplers of its kind have and a quick effort.
+/// Looks for all properties of one sampler at three views, with the claims that samplers of its kind have and a quick
+/// effort.
 ///
-/// It takes a [`Sample<f64>`](Sample), a `Sample<f32>` or any [`Sampler`], such as closures in [`OfFn`]. The seeds are made
-/// from the name: that of the test is as good as any.
+/// It takes a [`Sample<f64>`](Sample), a `Sample<f32>` or any [`Sampler`], such as closures in [`OfFn`]. The seeds are
+/// made from the name: that of the test is as good as any.
 pub fn verify<K>(name: &str, sampler: &impl AsSampler<K>) -> Report {
     let sampler = sampler.as_sampler();
     verify_with(name, &&*sampler, &sampler.claims(), &views(), Effort::QUICK)
@@ -138,8 +139,8 @@ pub fn verify_with<K>(
     suite.reports.pop().unwrap_or_else(|| Report { name: name.to_owned(), views: Vec::new() })
 }
 
-/// Many samplers by their names, each at the same views and with its own claims, see [`Claiming`]; the tests of all share the
-/// significance.
+/// Many samplers by their names, each at the same views and with its own claims, see [`Claiming`]; the tests of all
+/// share the significance.
 #[must_use]
 pub fn verify_all(samplers: &[(&str, &dyn Sampler)], views: &[[f64; 3]], effort: Effort) -> Suite {
     let reports =

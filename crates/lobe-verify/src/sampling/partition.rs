@@ -1,9 +1,10 @@
-//! The hemisphere cut into cells whose masses are known: adaptive quadrature of a density, and the bins of a test of fit.
+//! The hemisphere cut into cells whose masses are known: adaptive quadrature of a density, and the bins of a test of
+//! fit.
 //!
-//! Coordinates are `(a, s)` of the unit square: `cos θ = 1 − a²`, so that areas near the pole shrink like those of a disc, and `s` the
-//! azimuth from the viewer in turns, so that the mirror direction has `s = 1/2` and a lobe around it lies along the axes, at grazing
-//! views too. Then `dω = 4π a da ds`. A cell is halved where the quadrature is not yet sure, or where samples crowd: a
-//! lobe of width 1e-4 is found by some twenty halvings, wherever it is.
+//! Coordinates are `(a, s)` of the unit square: `cos θ = 1 − a²`, so that areas near the pole shrink like those of a
+//! disc, and `s` the azimuth from the viewer in turns, so that the mirror direction has `s = 1/2` and a lobe around it
+//! lies along the axes, at grazing views too. Then `dω = 4π a da ds`. A cell is halved where the quadrature is not yet
+//! sure, or where samples crowd: a lobe of width 1e-4 is found by some twenty halvings, wherever it is.
 
 use super::sampler::Sampler;
 use crate::subject::Precision;
@@ -154,7 +155,8 @@ impl Cell {
     }
 }
 
-/// Errors of cells, added: those of a smooth function as they are, noise as what is independent, twice its standard deviation.
+/// Errors of cells, added: those of a smooth function as they are, noise as what is independent, twice its standard
+/// deviation.
 #[derive(Clone, Copy, Debug, Default)]
 struct Errors {
     smooth: f64,
@@ -224,8 +226,8 @@ pub(crate) struct Density<'a> {
 }
 
 impl Partition {
-    /// Halves cells until the errors of all sum up to `tolerance`, or there are `most` cells. `pilot` are places of samples that show
-    /// the way, `witnesses` such as must not be missed.
+    /// Halves cells until the errors of all sum up to `tolerance`, or there are `most` cells. `pilot` are places of
+    /// samples that show the way, `witnesses` such as must not be missed.
     pub(crate) fn new(
         density: &Density<'_>,
         pilot: &mut [[f64; 2]],
@@ -254,10 +256,10 @@ impl Partition {
         this
     }
 
-    /// Halves a cell until none of these places has a density far above that of the nodes around it: a ridge between them, or the
-    /// strip between a step and the border of the cell, of which the difference of two rules says nothing (tests
-    /// `a_ridge_between_the_nodes_is_found`, `a_step_beside_the_border_of_a_cell_is_found`). What is left out of a cell is
-    /// less than `least` of the mass.
+    /// Halves a cell until none of these places has a density far above that of the nodes around it: a ridge between
+    /// them, or the strip between a step and the border of the cell, of which the difference of two rules says nothing
+    /// (tests `a_ridge_between_the_nodes_is_found`, `a_step_beside_the_border_of_a_cell_is_found`). What is left out of
+    /// a cell is less than `least` of the mass.
     fn attend(&mut self, density: &Density<'_>, index: usize, witnesses: &mut [Witness], least: f64, most: usize) {
         let Some(&Cell { low, high, depth, split, rule, .. }) = self.cells.get(index) else { return };
         let split = match (split, rule) {
@@ -366,7 +368,8 @@ impl Partition {
     }
 
     fn refine(&mut self, density: &Density<'_>, tolerance: f64, most: usize) {
-        // The directions of `f32` are so coarse that a sharp lobe is rough from one to the next, and finer cells are no smoother.
+        // The directions of `f32` are so coarse that a sharp lobe is rough from one to the next, and finer cells are no
+        // smoother.
         let rounded = density.sampler.precision() == Precision::Single;
         // Errors are not negative, so that their bits have their order.
         let mut queue: BinaryHeap<(u64, usize)> = BinaryHeap::new();

@@ -199,7 +199,8 @@ impl<'a> At<'a> {
         search.see(hidden > 0, self.case(hidden as f64).of(u, None).with("weight", r));
     }
 
-    /// How much a function of `l` changes, relatively, when `l` is rounded: the most over six neighbours an ulp of 1 away.
+    /// How much a function of `l` changes, relatively, when `l` is rounded: the most over six neighbours an ulp of 1
+    /// away.
     fn conditioned(&self, l: [f64; 3], f: &dyn Fn([f64; 3]) -> f64) -> f64 {
         let ulp = self.sampler.precision().ulp(1.0);
         let value = f(l);

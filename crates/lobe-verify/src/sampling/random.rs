@@ -88,9 +88,9 @@ fn unit(bits: u64, precision: Precision) -> f64 {
 
 /// The sequence of Sobol' in three dimensions, shifted digitally: each block of `2ᵏ` points is even in all dimensions.
 ///
-/// With the first primitive polynomials and initial numbers of Joe and Kuo, "Constructing Sobol Sequences with Better Two-Dimensional
-/// Projections", SIAM J. Sci. Comput. 30, 2008. (The additive sequence with powers of one root, which is simpler, has in three
-/// dimensions hardly a smaller error than random numbers at 2¹⁶ points.)
+/// With the first primitive polynomials and initial numbers of Joe and Kuo, "Constructing Sobol Sequences with Better
+/// Two-Dimensional Projections", SIAM J. Sci. Comput. 30, 2008. (The additive sequence with powers of one root, which
+/// is simpler, has in three dimensions hardly a smaller error than random numbers at 2¹⁶ points.)
 #[derive(Clone, Debug)]
 pub(crate) struct Sobol {
     shift: [u64; 3],

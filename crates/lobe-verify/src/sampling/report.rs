@@ -8,7 +8,8 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Property {
-    /// Directions, weights and densities are finite, for `u` at its ends too; directions are unit vectors above the horizon.
+    /// Directions, weights and densities are finite, for `u` at its ends too; directions are unit vectors above the
+    /// horizon.
     Finite,
     /// A viewer below the horizon gets a rejected sample, and the density there is 0.
     BelowHorizon,

@@ -14,7 +14,8 @@ pub trait Sampler: Sync {
     /// The density in sr⁻¹ with which [`sample`](Self::sample) gives `l`.
     fn pdf(&self, l: [f64; 3], v: [f64; 3]) -> f64;
 
-    /// `f_r (n·l)` and the density beside it, if the sampler knows what it samples: without it, weights are not checked.
+    /// `f_r (n·l)` and the density beside it, if the sampler knows what it samples: without it, weights are not
+    /// checked.
     fn eval_cos_pdf(&self, _l: [f64; 3], _v: [f64; 3]) -> Option<([f64; 3], f64)> {
         None
     }
@@ -195,10 +196,11 @@ where
     }
 }
 
-/// What can be given to [`verify`](super::verify) as it is: a `Sample<f64>`, a `Sample<f32>`, or a [`Sampler`] such as [`OfFn`].
+/// What can be given to [`verify`](super::verify) as it is: a `Sample<f64>`, a `Sample<f32>`, or a [`Sampler`] such as
+/// [`OfFn`].
 ///
-/// `Kind` is found by the compiler, from which of them the type is. A lobe that samples in every number type is wrapped by
-/// hand: `InDouble(&lobe)`.
+/// `Kind` is found by the compiler, from which of them the type is. A lobe that samples in every number type is wrapped
+/// by hand: `InDouble(&lobe)`.
 pub trait AsSampler<Kind> {
     /// The value as a sampler.
     fn as_sampler(&self) -> Box<dyn Sampler + '_>;

@@ -2,9 +2,9 @@
 
 use std::f64::consts::SQRT_2;
 
-/// The regularised gamma function `Q(a, x) = Γ(a, x)/Γ(a)`, for `a > 0`, `x > 0`: by the series of `P` (DLMF 8.7.1) where that
-/// has positive terms that fall at once, by the continued fraction of `Q` (DLMF 8.9.2) elsewhere. Its digits are those of
-/// `ln Γ(a)`: 1e-12 for `a` of some hundreds.
+/// The regularised gamma function `Q(a, x) = Γ(a, x)/Γ(a)`, for `a > 0`, `x > 0`: by the series of `P` (DLMF 8.7.1)
+/// where that has positive terms that fall at once, by the continued fraction of `Q` (DLMF 8.9.2) elsewhere. Its digits
+/// are those of `ln Γ(a)`: 1e-12 for `a` of some hundreds.
 fn gamma_tail(a: f64, x: f64) -> f64 {
     let front = libm::exp(a * x.ln() - x - libm::lgamma(a));
     if x < a + 1.0 {
@@ -37,8 +37,8 @@ fn beta(a: f64, b: f64, x: f64) -> f64 {
     libm::exp(log) / a * continued(1.0, |n| (term(n), 1.0))
 }
 
-/// `1/(b₀ + a₁/(b₁ + a₂/(b₂ + …)))`, from the top (the modified algorithm of Lentz; Thompson and Barnett, "Coulomb and Bessel Functions
-/// of Complex Arguments and Order", J. Comput. Phys. 64, 1986). `terms` gives `aₙ` and `bₙ`.
+/// `1/(b₀ + a₁/(b₁ + a₂/(b₂ + …)))`, from the top (the modified algorithm of Lentz; Thompson and Barnett, "Coulomb and
+/// Bessel Functions of Complex Arguments and Order", J. Comput. Phys. 64, 1986). `terms` gives `aₙ` and `bₙ`.
 fn continued(first: f64, terms: impl Fn(f64) -> (f64, f64)) -> f64 {
     // A denominator of 0 would end it; the next step takes this out again.
     let not_zero = |x: f64| if x.abs() < 1e-300 { 1e-300 } else { x };
@@ -68,8 +68,9 @@ pub(crate) fn chi_squared_tail(degrees: f64, x: f64) -> f64 {
     gamma_tail(0.5 * degrees, 0.5 * x).clamp(0.0, 1.0)
 }
 
-/// The same of the noncentral distribution with the parameter `lambda`: a mixture of central ones, with the weights of a Poisson
-/// distribution (Johnson, Kotz and Balakrishnan, "Continuous Univariate Distributions", volume 2, 1995, equation 29.2).
+/// The same of the noncentral distribution with the parameter `lambda`: a mixture of central ones, with the weights of
+/// a Poisson distribution (Johnson, Kotz and Balakrishnan, "Continuous Univariate Distributions", volume 2, 1995,
+/// equation 29.2).
 pub(crate) fn noncentral_tail(degrees: f64, lambda: f64, x: f64) -> f64 {
     let mean = 0.5 * lambda;
     if mean <= 0.0 {
@@ -119,8 +120,8 @@ pub(crate) fn two_sided_normal(z: f64) -> f64 {
     libm::erfc(z.abs() / SQRT_2)
 }
 
-/// Bernstein's bound of `P(|mean − μ| ≥ distance)` for `count` independent numbers that are within `most` of their mean `μ`:
-/// `2 exp(−n d²/(2 (σ² + most·d/3)))`. For numbers of any distribution, where the normal one is not yet near.
+/// Bernstein's bound of `P(|mean − μ| ≥ distance)` for `count` independent numbers that are within `most` of their mean
+/// `μ`: `2 exp(−n d²/(2 (σ² + most·d/3)))`. For numbers of any distribution, where the normal one is not yet near.
 pub(crate) fn bernstein(count: f64, variance: f64, most: f64, distance: f64) -> f64 {
     if distance <= 0.0 {
         return 1.0;
@@ -129,9 +130,9 @@ pub(crate) fn bernstein(count: f64, variance: f64, most: f64, distance: f64) -> 
     (2.0 * libm::exp(-exponent)).min(1.0)
 }
 
-/// The probability of a distance of at least `distance` between the distribution function of `count` samples and the true one,
-/// after Kolmogorov and Smirnov, with the correction for few samples of Stephens, "Use of the Kolmogorov-Smirnov, Cramér-von Mises
-/// and Related Statistics Without Extensive Tables", J. R. Stat. Soc. B 32, 1970.
+/// The probability of a distance of at least `distance` between the distribution function of `count` samples and the
+/// true one, after Kolmogorov and Smirnov, with the correction for few samples of Stephens, "Use of the
+/// Kolmogorov-Smirnov, Cramér-von Mises and Related Statistics Without Extensive Tables", J. R. Stat. Soc. B 32, 1970.
 pub(crate) fn kolmogorov_tail(count: f64, distance: f64) -> f64 {
     let root = count.sqrt();
     let x = (root + 0.12 + 0.11 / root) * distance;
@@ -147,8 +148,8 @@ pub(crate) fn kolmogorov_tail(count: f64, distance: f64) -> f64 {
     (1..=40).map(term).sum::<f64>().clamp(0.0, 1.0)
 }
 
-/// How unlikely `hits` of `count` are, two-sided, if the probability of one is somewhere in `[low, high]`: of the number
-/// in there that explains them best.
+/// How unlikely `hits` of `count` are, two-sided, if the probability of one is somewhere in `[low, high]`: of the
+/// number in there that explains them best.
 pub(crate) fn binomial(count: u64, hits: u64, low: f64, high: f64) -> f64 {
     let (n, k) = (count as f64, hits as f64);
     let (low, high) = (low.clamp(0.0, 1.0), high.clamp(0.0, 1.0));
@@ -168,9 +169,9 @@ pub(crate) fn binomial(count: u64, hits: u64, low: f64, high: f64) -> f64 {
     (2.0 * one_sided).min(1.0)
 }
 
-/// Holm's step-down correction ("A Simple Sequentially Rejective Multiple Test Procedure", Scand. J. Stat. 6, 1979): of each
-/// `p` the smallest significance of the *whole* family at which its test is rejected. The chance of any false alarm is that
-/// significance at most, however the tests depend on each other.
+/// Holm's step-down correction ("A Simple Sequentially Rejective Multiple Test Procedure", Scand. J. Stat. 6, 1979): of
+/// each `p` the smallest significance of the *whole* family at which its test is rejected. The chance of any false
+/// alarm is that significance at most, however the tests depend on each other.
 pub(crate) fn holm(ps: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..ps.len()).collect();
     let at = |index: usize| ps.get(index).copied().unwrap_or(1.0);

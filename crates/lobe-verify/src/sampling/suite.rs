@@ -2,8 +2,8 @@
 
 /// Tests of all properties of a sampler, one `#[test]` each, in a module of this name.
 ///
-/// The second argument is an expression for anything that [`verify`](crate::sampling::verify) takes; it is asked once for all
-/// tests. Seeds come from the path of the module. Claims other than those of its kind follow as fields of
+/// The second argument is an expression for anything that [`verify`](crate::sampling::verify) takes; it is asked once
+/// for all tests. Seeds come from the path of the module. Claims other than those of its kind follow as fields of
 /// [`Claims`](crate::sampling::Claims).
 ///
 /// ```

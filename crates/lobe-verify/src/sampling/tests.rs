@@ -127,8 +127,8 @@ fn the_least_part_of_the_table_is_where_detection_begins() {
 /// Smaller than quick, to be repeated often.
 const SMALL: Effort = Effort { samples: 1 << 13, bins: 32, single: 8, even: 16, tolerance: 1e-4, ..Effort::QUICK };
 
-/// Of the test of fit with a sharp lobe, and of both with one whose weights are not skewed: of skewed ones a bound is told, which is
-/// larger.
+/// Of the test of fit with a sharp lobe, and of both with one whose weights are not skewed: of skewed ones a bound is
+/// told, which is larger.
 #[test]
 fn p_values_of_a_true_sampler_are_even() {
     // An albedo so sure that its error takes nothing from the differences.

@@ -28,8 +28,8 @@ const SKEWED: f64 = 0.02;
 const LEAST_SHARING: f64 = 100.0;
 /// Samples that show where the density is.
 const PILOT: usize = 1024;
-/// As many more as that, at most, of which none may fall where the quadrature sees nothing: what it misses has less than about as
-/// small a part of the mass.
+/// As many more as that, at most, of which none may fall where the quadrature sees nothing: what it misses has less
+/// than about as small a part of the mass.
 const WITNESSES: usize = 1 << 16;
 /// Quantiles at which distribution functions are compared.
 const EDGES: usize = 256;
@@ -405,7 +405,8 @@ impl Group {
     }
 }
 
-/// Groups that expect enough: those that do not are put together, the smallest first, and what is left goes with the next.
+/// Groups that expect enough: those that do not are put together, the smallest first, and what is left goes with the
+/// next.
 fn pooled(mut groups: Vec<Group>) -> Vec<Group> {
     groups.sort_by(|a, b| a.expected.total_cmp(&b.expected));
     let mut pooled: Vec<Group> = Vec::with_capacity(groups.len());

@@ -1,5 +1,5 @@
-//! The power of the statistics: samplers as an engine would port them, each with a fault that is often made, and how small a part
-//! of it would still be found.
+//! The power of the statistics: samplers as an engine would port them, each with a fault that is often made, and how
+//! small a part of it would still be found.
 
 mod models;
 
@@ -99,8 +99,8 @@ impl Fault {
     }
 }
 
-/// A part of a fault: so many of the samples are from the sampler with the fault, and so much of the density is its own. The value
-/// is that of the truth.
+/// A part of a fault: so many of the samples are from the sampler with the fault, and so much of the density is its
+/// own. The value is that of the truth.
 #[derive(Clone, Copy, Debug)]
 pub struct Mixed<A, B> {
     /// The sampler with the fault.
@@ -142,9 +142,9 @@ pub struct Row {
     pub caught_by: Vec<Property>,
     /// The smallest `p` of all tests, corrected for the number of tests.
     pub p: f64,
-    /// The smallest part of the fault, mixed with the truth, that the test of fit finds nine times in ten at this number of
-    /// samples, at the view that shows it best; `None` where that test sees nothing of the fault. From the noncentral
-    /// distribution of χ², whose parameter grows with the square of the part.
+    /// The smallest part of the fault, mixed with the truth, that the test of fit finds nine times in ten at this
+    /// number of samples, at the view that shows it best; `None` where that test sees nothing of the fault. From the
+    /// noncentral distribution of χ², whose parameter grows with the square of the part.
     pub least_part: Option<f64>,
     /// What is said of the same sampler without the fault, if anything.
     pub false_alarms: Vec<Property>,
@@ -188,7 +188,8 @@ fn row(fault: Fault, effort: Effort) -> Row {
         let parts = report.views.iter().filter_map(|view| least_part(view, significance, part));
         parts.min_by(f64::total_cmp)
     };
-    // Again with three times as much of it, or more until it is seen: where all is wrong, χ² is not what it is of a part.
+    // Again with three times as much of it, or more until it is seen: where all is wrong, χ² is not what it is of a
+    // part.
     let mut least_part = least(&planted, 1.0);
     let mut part = 3.0 * least_part.unwrap_or(1.0);
     while part < 1.0 {
@@ -210,8 +211,8 @@ fn row(fault: Fault, effort: Effort) -> Row {
     }
 }
 
-/// `χ²` of a part `ε` of a fault is on average its degrees of freedom and `n ε² X²`: from what it is of one part, the part at which
-/// it is found.
+/// `χ²` of a part `ε` of a fault is on average its degrees of freedom and `n ε² X²`: from what it is of one part, the
+/// part at which it is found.
 fn least_part(view: &super::View, significance: f64, part: f64) -> Option<f64> {
     let fit = view.fit?;
     let excess = fit.statistic - fit.degrees;

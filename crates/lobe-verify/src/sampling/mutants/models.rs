@@ -13,10 +13,11 @@ pub enum Model {
     Cosine,
     /// The normalised mirror lobe with this exponent, all around its axis; what is below the horizon is rejected.
     Phong(f64),
-    /// GGX with two widths and `F = 1`, masking correlated, by the normals that the viewer sees (Heitz, "Sampling the GGX
-    /// Distribution of Visible Normals", JCGT 7(4), 2018).
+    /// GGX with two widths and `F = 1`, masking correlated, by the normals that the viewer sees (Heitz, "Sampling the
+    /// GGX Distribution of Visible Normals", JCGT 7(4), 2018).
     VisibleNormals([f64; 2]),
-    /// The same lobe by all normals, `D cos` (Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007).
+    /// The same lobe by all normals, `D cos` (Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
+    /// 2007).
     Normals([f64; 2]),
 }
 
