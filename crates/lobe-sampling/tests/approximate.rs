@@ -23,9 +23,9 @@ where
     let rough = lobe.carry(&N::<P>::new);
     let sample = |v: Vec3<f32>, u: [f32; 3]| rough.sample(v.map(N::new), u.map(N::new));
     for cos in COSINES {
-        for x in ENDS {
-            for y in ENDS {
-                let (v, u) = (single(at(cos, 0.9)), [0.3, x as f32, y as f32]);
+        for x in single_ends() {
+            for y in single_ends() {
+                let (v, u) = (single(at(cos, 0.9)), [0.3, x, y]);
                 let drawn = sample(v, u);
                 let (l, weight, pdf) = (drawn.l.map(N::value), drawn.weight.map(N::value), drawn.pdf.value());
                 let finite = (l.x + l.y + l.z + weight.r + weight.g + weight.b + pdf).is_finite();

@@ -17,10 +17,10 @@ use lobe_sampling::{Sample, SampleBy};
 fn inputs() -> Vec<(Vec3<f32>, [f32; 3])> {
     let mut inputs: Vec<_> =
         (points(97).enumerate()).map(|(i, u)| (single(at(COSINES[i % 7], i as f64)), u.map(|u| u as f32))).collect();
-    for x in ENDS {
-        inputs.extend(ENDS.map(|y| (single(at(0.3, 2.0)), [0.4, x as f32, y as f32])));
-        inputs.push((single(at(-0.3, 2.0)), [x as f32, 0.5, 0.5]));
-        inputs.push((Vec3::new(f32::NAN, 0.0, 1.0), [x as f32, 0.5, 0.5]));
+    for x in single_ends() {
+        inputs.extend(single_ends().map(|y| (single(at(0.3, 2.0)), [0.4, x, y])));
+        inputs.push((single(at(-0.3, 2.0)), [x, 0.5, 0.5]));
+        inputs.push((Vec3::new(f32::NAN, 0.0, 1.0), [x, 0.5, 0.5]));
     }
     inputs
 }

@@ -1,8 +1,8 @@
 //! Diffuse lobes and sheen.
 
-mod checks;
+mod common;
 
-use checks::{Case, VIEWS};
+use common::cases::{self as checks, Case, VIEWS};
 use lobe::{
     Alpha, Brdf, BurleyDiffuse, Charlie, Eon, Lambert, OrenNayar, OrenNayarQualitative, PerceptualRoughness, Rgb,
 };
@@ -77,9 +77,9 @@ fn eon_varies_less_than_by_the_cosine() {
     for z in [0.1, 0.5] {
         let v = checks::view(z);
         let square = |weight: &dyn Fn(u32) -> f64| (0..20_000).map(|i| weight(i).powi(2)).sum::<f64>() / 20_000.0;
-        let own = square(&|i| lobe.sample(v, checks::point(i)).weight.g) - 1.0;
+        let own = square(&|i| lobe.sample(v, common::point(i)).weight.g) - 1.0;
         let cosine = square(&|i| {
-            let l = chalk.sample(v, checks::point(i)).l;
+            let l = chalk.sample(v, common::point(i)).l;
             lobe.eval(l, v).g * std::f64::consts::PI
         }) - 1.0;
         println!("n·v = {z}: variance {own:.3}, by the cosine {cosine:.3}");

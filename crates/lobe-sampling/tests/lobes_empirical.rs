@@ -1,8 +1,8 @@
 //! The lobes that were fitted, and He's.
 
-mod checks;
+mod common;
 
-use checks::{Case, VIEWS};
+use common::cases::{self as checks, Case, VIEWS};
 use lobe::{HeTorrance, Ior, LowMicrofacet, LowSmooth, Rgb, ShiftedGamma, ShiftedGammaChannel};
 
 const A: Rgb<f64> = Rgb::new(160.0, 120.0, 90.0);

@@ -1,8 +1,8 @@
 //! Power lobes and Ward's.
 
-mod checks;
+mod common;
 
-use checks::{Case, VIEWS};
+use common::cases::{self as checks, Case, VIEWS};
 use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
 use lobe::{
     Alpha, AshikhminShirley, AshikhminShirleyDiffuse, BlinnPhong, CommonNormalization, Lafortune, Minnaert, Phong, Rgb,
@@ -117,7 +117,7 @@ fn nan_shows_and_below_the_horizon_is_nothing() {
 fn an_axis_below_the_horizon() {
     let case = case!(0.0, Lafortune::normalized(KS, Vec3::new(-1.0, -1.0, -0.3), Shininess(200.0)));
     let v = checks::view(0.6);
-    let kept = (0..1000).filter(|i| !case.double.sample(v, checks::point(*i)).rejected).count();
+    let kept = (0..1000).filter(|i| !case.double.sample(v, common::point(*i)).rejected).count();
     assert!((480..=520).contains(&kept), "{kept}");
     let wide = case!(0.0, Lafortune::normalized(KS, Vec3::new(-1.0, -1.0, -0.3), Shininess(10.0)));
     checks::weights_are_at_most(40.0, &wide, &[0.6, 0.1]);

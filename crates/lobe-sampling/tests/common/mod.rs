@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "not every test uses all of it")]
 
+pub(crate) mod cases;
+
 use lobe::{Brdf, Real, Rgb, Vec3};
 use lobe_energy::directional_albedo_to;
 use lobe_sampling::Sample;
@@ -24,42 +26,45 @@ pub(crate) fn single(v: Vec3<f64>) -> Vec3<f32> {
     v.map(|x| x as f32)
 }
 
-/// The points of Halton, in the bases 2, 3 and 5: the same in every run.
-pub(crate) fn points(count: usize) -> impl Iterator<Item = [f64; 3]> {
-    (1..=count).map(|i| {
-        [2, 3, 5].map(|base| {
-            let (mut left, mut digit, mut x) = (i, 1.0, 0.0);
-            while left > 0 {
-                digit /= base as f64;
-                x += digit * (left % base) as f64;
-                left /= base;
-            }
-            x
-        })
+/// Point `i` of Halton's sequence in the bases 2, 3 and 5.
+pub(crate) fn point(i: u32) -> [f64; 3] {
+    [2, 3, 5].map(|base| {
+        let (mut left, mut digit, mut x) = (i + 1, 1.0, 0.0);
+        while left > 0 {
+            digit /= f64::from(base);
+            x += digit * f64::from(left % base);
+            left /= base;
+        }
+        x
     })
 }
 
-/// A density as a lobe, so that the quadrature of albedos integrates it.
-struct Density<'a>(&'a dyn Sample<f64>);
+/// The first of them: the same in every run.
+pub(crate) fn points(count: u32) -> impl Iterator<Item = [f64; 3]> {
+    (0..count).map(point)
+}
 
-impl Brdf<f64> for Density<'_> {
-    fn eval(&self, l: Vec3<f64>, v: Vec3<f64>) -> Rgb<f64> {
-        self.eval_cos(l, v) * (1.0 / l.z)
+/// A function of directions of light as a lobe, so that the quadrature of albedos integrates it.
+struct Integrand<F>(F);
+
+impl<F: Fn(Vec3<f64>) -> Rgb<f64>> Brdf<f64> for Integrand<F> {
+    fn eval(&self, _: Vec3<f64>, _: Vec3<f64>) -> Rgb<f64> {
+        unreachable!("albedos are integrated over eval_cos")
     }
-    fn eval_cos(&self, l: Vec3<f64>, v: Vec3<f64>) -> Rgb<f64> {
-        Rgb::splat(self.0.pdf(l, v))
+    fn eval_cos(&self, l: Vec3<f64>, _: Vec3<f64>) -> Rgb<f64> {
+        (self.0)(l)
     }
 }
 
 /// Parts of the samples that are rejected, and that are deltas.
-fn without_density(sampler: &dyn Sample<f64>, v: Vec3<f64>, count: usize) -> [f64; 2] {
+fn without_density(sampler: &dyn Sample<f64>, v: Vec3<f64>, count: u32) -> [f64; 2] {
     let (mut rejected, mut deltas) = (0, 0);
     for u in points(count) {
         let sample = sampler.sample(v, u);
         rejected += usize::from(sample.rejected);
         deltas += usize::from(sample.delta && !sample.rejected);
     }
-    [rejected, deltas].map(|part| part as f64 / count as f64)
+    [rejected, deltas].map(|part| part as f64 / f64::from(count))
 }
 
 /// [`density_is_normalised`] for a density with steps, which mislead a rule of high order: by a fine grid.
@@ -79,8 +84,8 @@ pub(crate) fn stepped_density_is_normalised(name: &str, sampler: &dyn Sample<f64
 }
 
 /// The integral of the density, and the parts of the samples that are rejected and deltas; together they are 1.
-pub(crate) fn masses(sampler: &dyn Sample<f64>, v: Vec3<f64>, count: usize) -> [f64; 3] {
-    let integral = directional_albedo_to(1e-4, &Density(sampler), v);
+pub(crate) fn masses(sampler: &dyn Sample<f64>, v: Vec3<f64>, count: u32) -> [f64; 3] {
+    let integral = directional_albedo_to(1e-4, &Integrand(|l| Rgb::splat(sampler.pdf(l, v))), v);
     assert!(integral.error < 3e-4, "{integral:?} at {v:?}");
     let [rejected, deltas] = without_density(sampler, v, count);
     [integral.value.g, rejected, deltas]
@@ -141,26 +146,17 @@ pub(crate) fn error_of_weight(lobe: &dyn Lobe<f32>, exact: &dyn Lobe<f64>, v: Ve
 
 /// The mean weight of the samples is the directional albedo, within four standard errors.
 pub(crate) fn weights_sum_to_the_albedo(name: &str, sampler: &dyn Lobe<f64>, v: Vec3<f64>) {
-    const COUNT: usize = 1 << 15;
+    const COUNT: u32 = 1 << 15;
     let (mut sum, mut squares) = (0.0, 0.0);
     for u in points(COUNT) {
         let weight = sampler.sample(v, u).weight.g;
         sum += weight;
         squares += weight * weight;
     }
-    let count = COUNT as f64;
+    let count = f64::from(COUNT);
     let mean = sum / count;
     let deviation = (squares / count - mean * mean).max(0.0).sqrt() / count.sqrt();
-    struct Value<'a>(&'a dyn Lobe<f64>);
-    impl Brdf<f64> for Value<'_> {
-        fn eval(&self, l: Vec3<f64>, v: Vec3<f64>) -> Rgb<f64> {
-            self.0.eval(l, v)
-        }
-        fn eval_cos(&self, l: Vec3<f64>, v: Vec3<f64>) -> Rgb<f64> {
-            self.0.eval_cos(l, v)
-        }
-    }
-    let albedo = directional_albedo_to(2e-5, &Value(sampler), v);
+    let albedo = directional_albedo_to(2e-5, &Integrand(|l| sampler.eval_cos(l, v)), v);
     // The points and the quadrature have errors of their own, where every weight is the same.
     let room = 4.0 * deviation + albedo.error + 1e-4 * mean;
     assert!((mean - albedo.value.g).abs() < room, "{name} at {v:?}: {mean} ± {deviation}, albedo {albedo:?}");
@@ -170,8 +166,22 @@ fn channels<R>(color: Rgb<R>) -> [R; 3] {
     color.into()
 }
 
-/// Numbers of the square at its ends.
-pub(crate) const ENDS: [f64; 6] = [0.0, 1e-40, 1.0 / 16_777_216.0, 0.5, 0.750_001, 1.0 - 1.0 / 16_777_216.0];
+/// Numbers of the square at its ends; those of 53 digits are no numbers of `f32`, where the last is 1.
+pub(crate) const ENDS: [f64; 8] = [
+    0.0,
+    f64::MIN_POSITIVE / 8.0,
+    1e-40,
+    1.0 / 16_777_216.0,
+    0.5,
+    0.750_001,
+    1.0 - 1.0 / 16_777_216.0,
+    1.0 - f64::EPSILON / 2.0,
+];
+
+/// Those of them that are numbers below 1 in `f32`.
+pub(crate) fn single_ends() -> impl Iterator<Item = f32> + Clone {
+    ENDS.into_iter().map(|x| x as f32).filter(|x| *x < 1.0)
+}
 
 /// Viewers, down to the horizon.
 pub(crate) const COSINES: [f64; 7] = [1.0, 0.999_999, 0.7, 0.1, 1e-3, 1e-6, 1e-20];
@@ -180,23 +190,26 @@ pub(crate) const COSINES: [f64; 7] = [1.0, 0.999_999, 0.7, 0.1, 1e-3, 1e-6, 1e-2
 /// unit vector.
 pub(crate) fn ends_are_finite<R: Real<Mask = bool> + Into<f64>>(name: &str, sampler: &dyn Sample<R>, witness: R) {
     let number = |x: f64| witness.lift(x);
-    let epsilon = if number(1.0 + 1e-12).into() == 1.0 { 2e-6 } else { 1e-14 };
+    let epsilon = if number(1.0 + 1e-12).into() == 1.0 { 2e-6 } else { 1e-13 };
+    let ends: Vec<R> = ENDS.map(number).into_iter().filter(|x| (*x).into() < 1.0).collect();
     for cos in COSINES {
         for azimuth in [0.0, 0.9, 3.0] {
             let v = at(cos, azimuth).map(number);
             let guess: f64 = sampler.albedo_guess(v).into();
             assert!((0.0..1e30).contains(&guess), "{name} at {v:?}: {guess}", v = v.map(Into::<f64>::into));
-            for x in ENDS {
-                for y in ENDS {
-                    for z in ENDS {
-                        let sample = sampler.sample(v, [x, y, z].map(number));
+            for &x in &ends {
+                for &y in &ends {
+                    for &z in &ends {
+                        let sample = sampler.sample(v, [x, y, z]);
+                        let (x, y, z): (f64, f64, f64) = (x.into(), y.into(), z.into());
                         let l = sample.l.map(Into::<f64>::into);
                         let (weight, pdf) = (channels(sample.weight).map(Into::<f64>::into), sample.pdf.into());
                         let place = || format!("{name} at {cos} {azimuth}, {x} {y} {z}: {l:?} {weight:?} {pdf}");
                         assert!((l.length() - 1.0).abs() < epsilon, "{}", place());
                         assert!(weight.iter().all(|w| (0.0..1e30).contains(w)), "{}", place());
                         assert!((0.0..f64::MAX).contains(&pdf) && (sample.pdf.times(0.0).into() == 0.0), "{}", place());
-                        assert_eq!(sample.rejected, l.z <= 0.0 || sample.rejected, "{}", place());
+                        assert!(sample.rejected || l.z > 0.0, "{}", place());
+                        assert_eq!(pdf == 0.0, sample.rejected || sample.delta, "{}", place());
                         if !sample.rejected && !sample.delta {
                             let again: f64 = sampler.pdf(sample.l, v).into();
                             assert_eq!(again, pdf, "{}", place());
@@ -232,9 +245,13 @@ pub(crate) fn nan_shows_and_below_is_nothing<R: Real<Mask = bool> + Into<f64>>(
                 let v = Vec3::new(w[0], w[1], z * w[2]).map(number);
                 let sample = sampler.sample(v, u.map(number));
                 assert!(channels(sample.weight).iter().all(|w| is_nan(*w)), "{name}: {w:?} {u:?}");
+                assert!(z < 0.0 || !sample.rejected, "{name}: {w:?} {u:?}");
                 let l = at(0.5, 0.1).map(number);
                 if broken_v.is_nan() {
-                    assert!(is_nan(sampler.pdf(l, v)) && is_nan(sampler.eval_cos_pdf(l, v).0.g), "{name}: {w:?}");
+                    for (l, v) in [(l, v), (v, l)] {
+                        let (value, pdf) = sampler.eval_cos_pdf(l, v);
+                        assert!(is_nan(sampler.pdf(l, v)) && is_nan(pdf) && is_nan(value.g), "{name}: {w:?}");
+                    }
                 }
             }
         }
@@ -247,7 +264,13 @@ pub(crate) fn nan_shows_and_below_is_nothing<R: Real<Mask = bool> + Into<f64>>(
         assert_eq!(sample.pdf.into(), 0.0, "{name} from {z}");
         let l = sample.l.map(Into::<f64>::into);
         assert!((l.length() - 1.0).abs() < 1e-6, "{name} from {z}: {l:?}");
-        assert_eq!(sampler.pdf(at(0.5, 0.1).map(number), v).into(), 0.0, "{name} from {z}");
+        let l = at(0.5, 0.1).map(number);
+        for (l, v) in [(l, v), (v, l)] {
+            let (value, pdf) = sampler.eval_cos_pdf(l, v);
+            let all = [value.r, value.g, value.b, pdf, sampler.pdf(l, v)].map(Into::<f64>::into);
+            assert_eq!(all, [0.0; 5], "{name} from {z}");
+        }
+        assert!(sampler.albedo_guess(v).into().is_finite(), "{name} from {z}");
     }
     let v = v.map(number);
     assert_eq!(sampler.pdf(at(-0.5, 0.1).map(number), v).into(), 0.0, "{name}");

@@ -42,10 +42,10 @@ pub fn variances(samplers: &[(&str, &dyn Sampler)], views: &[[f64; 3]]) -> Vec<V
 
 fn variance(name: &str, sampler: &dyn Sampler, v: [f64; 3]) -> Option<Variance> {
     let v = v.map(|x| sampler.precision().round(x));
-    let mut places = pilot(sampler, v, Chart::new(v), seed(&format!("{name} {v:?}")), 1024);
+    let mut places = pilot(sampler, v, Chart::new(v), seed(&format!("{name} {v:?}")), 1 << 14);
     places.extend(around_mirror(v));
     let Effort { tolerance, cells, .. } = Effort::QUICK;
-    let (sums, ..) = Partition::new(&Density { sampler, v }, &mut places, &[], tolerance, cells).total();
+    let (sums, ..) = Partition::new(&Density { sampler, v }, &mut places, tolerance, cells).total();
     let albedo = sums.mean_value();
     let variance = (sums.second - albedo * albedo).max(0.0);
     let samples = (variance / (1e-4 * albedo * albedo)).max(1.0);

@@ -11,7 +11,7 @@ use super::sampler::Sampler;
 use super::statistics::{bernstein, binomial, kolmogorov_tail, noncentral_tail, two_sided_normal};
 use crate::subject::{Precision, catch};
 use lobe::{Brdf, Rgb, Vec3};
-use lobe_energy::directional_albedo_to;
+use lobe_energy::{Albedo, directional_albedo_to};
 use std::f64::consts::PI;
 
 /// Cells that expect fewer samples are put together: the distribution of their counts is not yet that of χ².
@@ -22,15 +22,15 @@ const NORMALISED: f64 = 1e-4;
 const ALBEDO: f64 = 1e-3;
 /// Standard errors, of sixteen means, that are allowed beside: once in a million.
 const ERRORS: f64 = 8.0;
+/// To what two quadratures of an albedo have to agree that the cells doubt.
+const FINE: f64 = 1e-4;
 /// A third moment, over the root of the number of samples, up to which a mean is normal to five standard errors.
 const SKEWED: f64 = 0.02;
 /// The mean of fewer samples than that, among all, says nothing.
 const LEAST_SHARING: f64 = 100.0;
-/// Samples that show where the density is.
-const PILOT: usize = 1024;
-/// As many more as that, at most, of which none may fall where the quadrature sees nothing: what it misses has less
-/// than about as small a part of the mass.
-const WITNESSES: usize = 1 << 16;
+/// As many samples, at most, show where the density is, and none of them may fall where the quadrature sees nothing:
+/// what it misses has less than about as small a part of the mass.
+const PILOT: usize = 1 << 16;
 /// Quantiles at which distribution functions are compared.
 const EDGES: usize = 256;
 
@@ -67,11 +67,10 @@ fn look(name: &str, sampler: &dyn Sampler, claims: &Claims, v: [f64; 3], effort:
     let mut verdicts = pointwise::verdicts(At { sampler, claims, v }, seed, effort.single);
 
     let density = Density { sampler, v };
-    let witnesses = pilot(sampler, v, super::partition::Chart::new(v), seed, (effort.samples / 4).min(WITNESSES));
-    let mut places: Vec<_> = witnesses.iter().take(PILOT).copied().collect();
-    let edges = quantiles(&places);
+    let mut places = pilot(sampler, v, super::partition::Chart::new(v), seed, (effort.samples / 4).min(PILOT));
+    let edges = quantiles(places.get(..1024).unwrap_or(&places));
     places.extend(around_mirror(v));
-    let mut partition = Partition::new(&density, &mut places, &witnesses, effort.tolerance, effort.cells);
+    let mut partition = Partition::new(&density, &mut places, effort.tolerance, effort.cells);
     let bins = partition.bins(&density, effort.bins);
     let (sums, pdf_error, value_error) = partition.total();
     let plan = Plan { sampler, v, partition: &partition, bins: &bins, edges: &edges, seed };
@@ -296,16 +295,22 @@ impl Known<'_> {
     fn reference(&self, effort: &Effort) -> Option<Reference> {
         self.sampler.eval_cos_pdf(self.v, self.v)?;
         let [x, y, z] = self.v;
-        let around = directional_albedo_to(effort.agreement, &Lobe(self.sampler), Vec3::new(x, y, z));
+        let lobe = Lobe(self.sampler);
+        let around = |agreement| directional_albedo_to(agreement, &lobe, Vec3::new(x, y, z));
         let rounding = match self.sampler.precision() {
             Precision::Single => 4e-6,
             Precision::Double => ROUNDING,
         };
-        let value: [f64; 3] = around.value.into();
-        let (near, cells) = (super::partition::mean(value), self.sums.mean_value());
-        let agree = (near - cells).abs() <= around.error + self.value_error + rounding;
-        // What differs more than either admits has missed a peak: the smaller.
-        let around_mirror = if agree { around.error <= self.value_error.max(1e-5) } else { near > cells };
+        let cells = self.sums.mean_value();
+        let mean_of = |albedo: &Albedo| super::partition::mean(albedo.value.into());
+        let agrees = |albedo: &Albedo| (mean_of(albedo) - cells).abs() <= albedo.error + self.value_error + rounding;
+        let coarse = around(effort.agreement);
+        // Of a brushed lobe two coarse rules may agree by chance on what is wrong by a few hundredths.
+        let near = if agrees(&coarse) { coarse } else { around(effort.agreement.min(FINE)) };
+        // What still differs more than either admits has missed a peak: the smaller.
+        let around_mirror =
+            if agrees(&near) { near.error <= self.value_error.max(1e-5) } else { mean_of(&near) > cells };
+        let (value, around) = (near.value.into(), near);
         Some(if around_mirror {
             Reference { value, error: around.error + rounding, around_mirror }
         } else {

@@ -1,7 +1,8 @@
-//! What every sampler must do, for any `&dyn Sample`.
+//! Lobes in three number types, and what their samplers must do.
 
+use super::{COSINES, Integrand, nan_shows_and_below_is_nothing, point, single_ends};
 use lobe::number::{Approximate, Fast};
-use lobe::{Brdf, Real, Rgb, Vec3};
+use lobe::{Real, Rgb, Vec3};
 use lobe_energy::directional_albedo_to;
 use lobe_sampling::Sample;
 
@@ -21,7 +22,7 @@ pub(crate) struct Case {
 macro_rules! case {
     ($tolerance:expr, $lobe:expr) => {{
         let lobe = $lobe;
-        $crate::checks::Case {
+        $crate::common::cases::Case {
             name: stringify!($lobe).split_whitespace().collect::<Vec<_>>().join(" "),
             double: Box::new(lobe),
             single: Box::new(lobe.map(|x: f64| x as f32)),
@@ -39,31 +40,6 @@ pub(crate) fn view(z: f64) -> Vec3<f64> {
 
 /// From the normal to where most lobes lose half of their samples.
 pub(crate) const VIEWS: [f64; 4] = [1.0, 0.8, 0.3, 0.03];
-
-/// Point `i` of Halton's sequence in the unit cube.
-pub(crate) fn point(i: u32) -> [f64; 3] {
-    [2, 3, 5].map(|base| {
-        let (mut rest, mut digit, mut sum) = (i + 1, 1.0, 0.0);
-        while rest > 0 {
-            digit /= f64::from(base);
-            sum += digit * f64::from(rest % base);
-            rest /= base;
-        }
-        sum
-    })
-}
-
-/// A function of directions of light as a lobe, so that the quadrature of albedos integrates it.
-struct Integrand<F>(F);
-
-impl<F: Fn(Vec3<f64>) -> Rgb<f64>> Brdf<f64> for Integrand<F> {
-    fn eval(&self, _: Vec3<f64>, _: Vec3<f64>) -> Rgb<f64> {
-        unreachable!("albedos are integrated over eval_cos")
-    }
-    fn eval_cos(&self, l: Vec3<f64>, _: Vec3<f64>) -> Rgb<f64> {
-        (self.0)(l)
-    }
-}
 
 /// `∫ f` over the hemisphere, with points that are dense around the mirror direction of `v`.
 fn integral(what: &str, v: Vec3<f64>, f: impl Fn(Vec3<f64>) -> Rgb<f64>) -> Rgb<f64> {
@@ -194,43 +170,20 @@ pub(crate) fn weights_are_quotients_in_f32(case: &Case, views: &[f64]) {
     assert!(worst.0 <= case.tolerance, "{}: {worst:?}", case.name);
 }
 
-/// The ends of what a generator gives, in 24 or 53 digits.
-const ENDS: [f64; 6] =
-    [0.0, f64::MIN_POSITIVE / 8.0, 1e-40, 0.5, 1.0 - 1.0 / (1u64 << 24) as f64, 1.0 - 1.0 / (1u64 << 53) as f64];
-
-/// At the ends of `u` and of `v`: finite, of unit length, and the density of what is given.
+/// [`ends_are_finite`](super::ends_are_finite), and in `Fast` numbers finite and about of unit length.
 pub(crate) fn ends_are_finite(case: &Case) {
-    let name = &case.name;
-    let below = |u: f64| if (u as f32) < 1.0 { u as f32 } else { 1.0 - f32::EPSILON / 2.0 };
-    let mut views: Vec<_> = [1.0, 0.5, 1e-3, 1e-10, 1e-20, 0.0, -1e-20, -0.3, -1.0].map(view).into();
-    views.extend([Vec3::new(1.0, 0.0, 1e-20), Vec3::new(0.0, -1.0, 1e-7), Vec3::new(0.6, 0.0, 0.8)]);
-    for v in views {
-        let narrow = v.map(|x| x as f32);
-        for a in ENDS {
-            for b in ENDS {
-                for c in ENDS {
-                    let sample = case.double.sample(v, [a, b, c]);
-                    let what = || format!("{name} {v:?} {:?}: {sample:?}", [a, b, c]);
-                    assert!((sample.l.length() - 1.0).abs() < 1e-12, "{}", what());
-                    assert!(sample.weight.g.is_finite() && sample.weight.g >= 0.0, "{}", what());
-                    assert!(sample.pdf.is_finite() && (sample.rejected == (sample.pdf == 0.0)), "{}", what());
-                    assert!(sample.rejected || (v.z > 0.0 && sample.l.z > 0.0), "{}", what());
-                    assert!(sample.rejected || case.double.pdf(sample.l, v) == sample.pdf, "{}", what());
-
-                    let u = [a, b, c].map(below);
-                    let sample = case.single.sample(narrow, u);
-                    let what = || format!("f32 {name} {narrow:?} {u:?}: {sample:?}");
-                    assert!((sample.l.length() - 1.0).abs() < 2e-6, "{}", what());
-                    assert!(sample.weight.g.is_finite() && sample.weight.g >= 0.0, "{}", what());
-                    assert!(sample.pdf.is_finite() && (sample.rejected == (sample.pdf == 0.0)), "{}", what());
-                    assert!(sample.rejected || (narrow.z > 0.0 && sample.l.z > 0.0), "{}", what());
-
-                    let sample = case.fast.sample(narrow.map(Approximate::new), u.map(Approximate::new));
-                    let length = sample.l.map(Approximate::value).length();
-                    let what = || format!("fast {name} {narrow:?} {u:?}: {sample:?}");
-                    assert!((length - 1.0).abs() < 2e-3, "{}", what());
-                    assert!(sample.weight.g.value().is_finite() && sample.pdf.value().is_finite(), "{}", what());
-                }
+    super::ends_are_finite(&case.name, &*case.double, 0.0);
+    super::ends_are_finite(&case.name, &*case.single, 0.0);
+    let views =
+        COSINES.into_iter().chain([-1e-20, -0.3, -1.0]).map(|z| view(z.abs()).map(|x| if z < 0.0 { -x } else { x }));
+    for v in views.map(|v| v.map(|x| Approximate::new(x as f32))) {
+        for a in single_ends() {
+            for (b, c) in single_ends().flat_map(|b| single_ends().map(move |c| (b, c))) {
+                let sample = case.fast.sample(v, [a, b, c].map(Approximate::new));
+                let length = sample.l.map(Approximate::value).length();
+                let what = || format!("fast {} {v:?} {:?}: {sample:?}", case.name, [a, b, c]);
+                assert!((length - 1.0).abs() < 2e-3, "{}", what());
+                assert!(sample.weight.g.value().is_finite() && sample.pdf.value().is_finite(), "{}", what());
             }
         }
     }
@@ -238,30 +191,8 @@ pub(crate) fn ends_are_finite(case: &Case) {
 
 /// NaN in gives NaN out, a viewer below the horizon no sample, light from there no density.
 pub(crate) fn nan_and_horizon(case: &Case) {
-    let (name, lobe) = (&case.name, &case.double);
-    let (v, u, l) = (view(0.7), [0.3, 0.6, 0.2], view(0.4));
-    for i in 0..3 {
-        let (mut broken_v, mut broken_u) = (<[f64; 3]>::from(v), u);
-        broken_v[i] = f64::NAN;
-        broken_u[i] = f64::NAN;
-        for sample in [lobe.sample(broken_v.into(), u), lobe.sample(v, broken_u)] {
-            let Rgb { r, g, b } = sample.weight;
-            assert!(r.is_nan() && g.is_nan() && b.is_nan() && !sample.rejected, "{name} {i}: {sample:?}");
-        }
-        for (l, v) in [(l, broken_v.into()), (broken_v.into(), l)] {
-            let (value, pdf) = lobe.eval_cos_pdf(l, v);
-            assert!(pdf.is_nan() && lobe.pdf(l, v).is_nan() && value.g.is_nan(), "{name} {i}: {value:?}, {pdf}");
-        }
-    }
-    for v in [view(-0.7), view(-1e-9), view(0.0)] {
-        for i in 0..50 {
-            let sample = lobe.sample(v, point(i));
-            assert!(sample.rejected && sample.weight == Rgb::splat(0.0) && sample.pdf == 0.0, "{name}: {sample:?}");
-        }
-        assert_eq!((lobe.pdf(l, v), lobe.pdf(v, l)), (0.0, 0.0), "{name}");
-        assert_eq!(lobe.eval_cos_pdf(v, l), (Rgb::splat(0.0), 0.0), "{name}");
-        assert!(lobe.albedo_guess(v).is_finite(), "{name}");
-    }
+    nan_shows_and_below_is_nothing(&case.name, &*case.double, 0.0);
+    nan_shows_and_below_is_nothing(&case.name, &*case.single, 0.0);
 }
 
 /// Where a lobe has a value, its sampler has a density, and their quotient is at most `bound` times the albedo of its
