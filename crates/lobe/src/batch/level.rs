@@ -169,8 +169,9 @@ where
     });
 }
 
-/// The `count` registers of each slice. In lanes all of it is [`Register::run`], so that this is the arguments of a call.
-#[inline]
+/// The `count` registers of each slice. A function of its own: of two kernels with the same loop a linker's names may keep one, and what
+/// looks at machine code finds the other by this one's name.
+#[inline(never)]
 fn registers<F, P, K, C, O, const ADD: bool>(
     token: F::Token,
     kernel: K,

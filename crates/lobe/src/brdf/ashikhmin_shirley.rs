@@ -6,7 +6,7 @@ use super::{Brdf, Shininess, above_horizon, both_above, keep_nan};
 use crate::carry::carry;
 use crate::color::Rgb;
 use crate::fresnel::{Fresnel, Incidence, Schlick};
-use crate::number::{Quotient, Real};
+use crate::number::Real;
 use crate::vector::Vec3;
 use core::f64::consts::PI;
 
@@ -90,8 +90,8 @@ impl<R: Real> AshikhminShirley<R> {
         AshikhminShirley::new(self.f0.map(&f), self.nu.map(&f), self.nv.map(&f))
     }
 
-    /// `F · finish(peak (n·h)^e weight/(max(n·l, n·v) (l·h)))`, with one division for both quotients of the exponent, and one for
-    /// `weight/max(n·l, n·v)` and what Schlick's form takes.
+    /// `F · finish(peak (n·h)^e weight/(max(n·l, n·v) (l·h)))`, with one division for both quotients of the exponent. (One for the
+    /// cosines and for what Schlick's form takes would leave the range at the horizon.)
     #[inline(always)]
     fn lobe(&self, l: Vec3<R>, v: Vec3<R>, weight: R, finish: impl Fn(R) -> R) -> Rgb<R> {
         let s = (l + v) * l.z.lift(R::COSINE_SCALE);
@@ -104,7 +104,7 @@ impl<R: Real> AshikhminShirley<R> {
         let power = half_vector_power(sin2, z2, exponent, both_above(l, v));
         // |l + v|/2; of rounded unit vectors it may exceed 1.
         let cos_d = (sin2 + z2).sqrt().times(0.5 / R::COSINE_SCALE).min(sin2.lift(1.0));
-        let (incidence, share) = Incidence::halfway_and(l, v, cos_d, Quotient::new(weight, l.z.max(v.z)));
+        let (incidence, share) = (Incidence::halfway(l, v, cos_d), weight / l.z.max(v.z));
         let value = self.peak * power;
         // A zero is kept: what it would be divided by may be 0 at the horizon. One after the other: the product of two cosines
         // of 1e-20 underflows.

@@ -51,7 +51,8 @@ pub(crate) fn half_vector_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
     // Grazing cosines down to 1e-20 have squares below the range of f32. Without the scale `(n·h)^q` is wrong in the first
     // digit there (test `grazing_needs_the_scale`).
     let s = (l + v) * q.lift(R::COSINE_SCALE);
-    let (sin2, cos2) = (s.y.mul_add(s.y, s.x.squared()), s.z.squared().off_zero());
+    // Squares and no products: an interval knows that they are not negative.
+    let (sin2, cos2) = (s.x.squared() + s.y.squared(), s.z.squared().off_zero());
     keep_nan(l, v, half_vector_power(sin2, cos2, q, both_above(l, v)))
 }
 
@@ -59,7 +60,6 @@ pub(crate) fn half_vector_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
 /// directions are above the horizon; else 0 or NaN. It is 0 wherever `r·v ≤ 0`, for `q = 0` too.
 #[inline(always)]
 pub(crate) fn mirror_lobe<R: Real>(l: Vec3<R>, v: Vec3<R>, q: R) -> R {
-    let (x, y, z) = (l.x + v.x, l.y + v.y, l.z - v.z);
-    let distance2 = z.mul_add(z, y.mul_add(y, x.squared()));
+    let distance2 = (l.x + v.x).squared() + (l.y + v.y).squared() + (l.z - v.z).squared();
     keep_nan(l, v, mirror_power(distance2.times(0.5), q, both_above(l, v)))
 }
