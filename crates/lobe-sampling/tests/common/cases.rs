@@ -101,7 +101,7 @@ pub(crate) fn agrees_with_quadrature(case: &Case, views: &[f64]) {
             }
         }
         // More points for a mass, whose edge is the horizon; not where of as many points none is beyond it.
-        let of_mass = if rejected > 0.0 { 4 * N } else { N };
+        let of_mass = if rejected > 0.0 { 2 * N } else { N };
         for i in N..of_mass {
             rejected += f64::from(u8::from(lobe.sample(v, point(i)).rejected));
         }

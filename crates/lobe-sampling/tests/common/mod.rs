@@ -85,7 +85,7 @@ pub(crate) fn stepped_density_is_normalised(name: &str, sampler: &dyn Sample<f64
 
 /// The integral of the density, and the parts of the samples that are rejected and deltas; together they are 1.
 pub(crate) fn masses(sampler: &dyn Sample<f64>, v: Vec3<f64>, count: u32) -> [f64; 3] {
-    let integral = directional_albedo_to(1e-4, &Integrand(|l| Rgb::splat(sampler.pdf(l, v))), v);
+    let integral = directional_albedo_to(3e-4, &Integrand(|l| Rgb::splat(sampler.pdf(l, v))), v);
     assert!(integral.error < 3e-4, "{integral:?} at {v:?}");
     let [rejected, deltas] = without_density(sampler, v, count);
     [integral.value.g, rejected, deltas]
@@ -156,7 +156,7 @@ pub(crate) fn weights_sum_to_the_albedo(name: &str, sampler: &dyn Lobe<f64>, v: 
     let count = f64::from(COUNT);
     let mean = sum / count;
     let deviation = (squares / count - mean * mean).max(0.0).sqrt() / count.sqrt();
-    let albedo = directional_albedo_to(2e-5, &Integrand(|l| sampler.eval_cos(l, v)), v);
+    let albedo = directional_albedo_to(1e-4, &Integrand(|l| sampler.eval_cos(l, v)), v);
     // The points and the quadrature have errors of their own, where every weight is the same.
     let room = 4.0 * deviation + albedo.error + 1e-4 * mean;
     assert!((mean - albedo.value.g).abs() < room, "{name} at {v:?}: {mean} ± {deviation}, albedo {albedo:?}");

@@ -199,10 +199,11 @@ impl<'a> At<'a> {
         search.see(hidden > 0, self.case(hidden as f64).of(u, None).with("weight", r));
     }
 
-    /// How much a function of `l` changes, relatively, when `l` is rounded: the most over six neighbours an ulp of 1
-    /// away. At an edge, where one of them is 0, it is all of it.
+    /// How much a function of `l` changes, relatively, when `l` moves by all roundings: the most over six neighbours.
+    /// Not one ulp times their number, which the function itself may round away. At an edge, where a neighbour is 0, it
+    /// is all of it.
     fn conditioned(&self, l: [f64; 3], f: &dyn Fn([f64; 3]) -> f64) -> f64 {
-        let ulp = self.sampler.precision().ulp(1.0);
+        let moved = ROUNDINGS * self.sampler.precision().ulp(1.0);
         let value = f(l);
         let change = |axis: usize, step: f64| {
             let mut near = l;
@@ -212,7 +213,7 @@ impl<'a> At<'a> {
             }
             difference(f(near), value)
         };
-        let changes = (0..3).flat_map(|axis| [change(axis, ulp), change(axis, -ulp)]);
+        let changes = (0..3).flat_map(|axis| [change(axis, moved), change(axis, -moved)]);
         changes.filter(|x| x.is_finite()).fold(0.0, f64::max)
     }
 
@@ -227,7 +228,7 @@ impl<'a> At<'a> {
             let paired = self.sampler.eval_cos_pdf(l, self.v).map_or(pdf, |(_, pdf)| pdf);
             let size = difference(sampled, pdf).max(difference(paired, pdf));
             let fails = size.is_nan()
-                || size > allowed && size > allowed + EXPLAINED * self.conditioned(l, &|l| self.sampler.pdf(l, self.v));
+                || size > allowed && size > allowed + self.conditioned(l, &|l| self.sampler.pdf(l, self.v));
             let case = self.case(nan_is_all(size)).of(*u, Some(l)).with("pdf of the sample", sampled);
             search.see(fails, case.with("pdf(l, v)", pdf).with("pdf beside the value", paired));
         }
@@ -256,7 +257,7 @@ impl<'a> At<'a> {
                     let (value, pdf) = self.sampler.eval_cos_pdf(l, self.v).unwrap_or(([0.0; 3], 1.0));
                     value.get(channel).copied().unwrap_or_default() / pdf
                 };
-                let fails = size.is_nan() || size > allowed && size > allowed + EXPLAINED * self.conditioned(l, &of);
+                let fails = size.is_nan() || size > allowed && size > allowed + self.conditioned(l, &of);
                 let case = self.case(nan_is_all(size)).of(*u, Some(l)).with("weight", weight);
                 search.see(fails, case.with("f cos/pdf", quotient));
             }
@@ -265,11 +266,11 @@ impl<'a> At<'a> {
     }
 }
 
-/// A sample's own vectors, before they become `l`, are rounded a few times, and so is what a value and a density are
-/// computed from: at a right angle to the axis of a Lafortune lobe the cosine of a value is off by 11 half ulps (its
-/// bound in the catalogue), that of a density, from the distance to an axis of unit length, by about as many, and an
-/// ulp of one component changes it by no more than one or two.
-const EXPLAINED: f64 = 24.0;
+/// Ulps of 1. A sample's own vectors, before they become `l`, are rounded a few times, and so is what a value and a
+/// density are computed from: at a right angle to the axis of a Lafortune lobe the cosine of a value is off by 11 half
+/// ulps (its bound in the catalogue), that of a density, from the distance to an axis of unit length, by about as many,
+/// and an ulp of the component that changes it most may change it by no more than half of one.
+const ROUNDINGS: f64 = 24.0;
 
 /// The difference relative to the larger; of numbers that `f32` can hardly tell from 0 there is none.
 fn difference(a: f64, b: f64) -> f64 {
