@@ -180,8 +180,9 @@ impl<R: Real> Draw<R> for AshikhminShirley<R> {
         let ((nu, nv), (s, length)) = (self.shininess(), scaled_sum(l, v));
         let (x2, y2) = (s.x.squared(), s.y.squared());
         // At h = n any mean of the exponents will do, since the power of 1 is 1; 0/0 would be NaN.
-        let sum = (x2 + y2).max(x2.lift(R::MIN_POSITIVE));
-        let exponent = nu.0 * (x2 / sum) + nv.0 * (y2 / sum);
+        let inverse = (x2 + y2).max(x2.lift(R::MIN_POSITIVE)).recip();
+        // To the bit what the lobe has, so that the power is the same there.
+        let exponent = nu.0.mul_add(x2 * inverse, nv.0 * (y2 * inverse));
         let peak = nu.0.plus(1.0).sqrt() * nv.0.plus(1.0).sqrt();
         half_vector_power(l, v, exponent) * peak * (x2.lift(0.25 * R::SCALE) / length)
     }
