@@ -69,7 +69,7 @@ fn without_density(sampler: &dyn Sample<f64>, v: Vec3<f64>, count: u32) -> [f64;
 
 /// [`density_is_normalised`] for a density with steps, which mislead a rule of high order: by a fine grid.
 pub(crate) fn stepped_density_is_normalised(name: &str, sampler: &dyn Sample<f64>, v: Vec3<f64>) {
-    const SIDE: usize = 1600;
+    const SIDE: usize = 1000;
     let mut integral = 0.0;
     for i in 0..SIDE {
         let cos = (i as f64 + 0.5) / SIDE as f64;
