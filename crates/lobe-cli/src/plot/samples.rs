@@ -12,7 +12,7 @@ use lobe_verify::subject::Precision;
 use std::f64::consts::TAU;
 
 /// The directions in a picture.
-pub(crate) const SHOWN: usize = 512;
+pub(crate) const SHOWN: usize = 400;
 /// The decades of the colours.
 pub(crate) const DECADES: f64 = 4.0;
 /// The pixels of the colours, to both sides.
