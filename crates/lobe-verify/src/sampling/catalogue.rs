@@ -24,7 +24,7 @@ const VIEWS: [(f64, f64); 5] = [(1.0, 0.0), (0.01, 75.0), (0.5, 30.0), (0.1, 120
 /// - the sharp ones among them in `f32` too, and an ordinary one;
 /// - GGX by each way to draw its facets, mixtures of up to four lobes, with a mirror too, and coats.
 ///
-/// With [`Effort::QUICK`] half a minute of two cores, with [`Effort::FULL`] half an hour.
+/// With [`Effort::QUICK`] a quarter of a minute of two cores, with [`Effort::FULL`] hours.
 #[must_use]
 pub fn models(effort: Effort) -> Suite {
     selected(effort, |_| true)
