@@ -486,8 +486,11 @@ fn parse_view(text: &str) -> Result<[f64; 3], String> {
 #[derive(Debug, ArgsOf)]
 pub(crate) struct PlotArgs {
     /// What to draw
-    #[arg(long, value_enum, default_value = "polar")]
+    #[arg(long, value_enum, default_value = "polar", default_value_if("samples", "true", "samples"))]
     pub(crate) kind: Kind,
+    /// Draw samples: short for --kind samples
+    #[arg(long, conflicts_with = "kind")]
+    pub(crate) samples: bool,
     /// The BRDFs: JSON, @FILE, a preset or a measured one such as ngan:pvc/ward. `surface`, `slices`, `image`, `terms`
     /// and `samples` draw one, `compare` none, the others up to six
     #[arg(value_name = "BRDF")]

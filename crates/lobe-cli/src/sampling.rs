@@ -3,10 +3,10 @@
 use crate::args::VerifyArgs;
 use crate::error::Failure;
 use crate::output;
-use crate::progress::Waiting;
+use crate::progress::{Progress, Waiting};
 use crate::spec;
 use lobe_verify::sampling::mutants::survey;
-use lobe_verify::sampling::{self, Effort, InDouble, InSingle, Sampler, Suite, verify_all, views};
+use lobe_verify::sampling::{Catalogue, Effort, InDouble, InSingle, Sampler, Suite, verify_all, views};
 use serde_json::json;
 
 /// Runs it.
@@ -19,8 +19,9 @@ pub(crate) fn run(args: &VerifyArgs, quiet: bool, json: bool) -> Result<(), Fail
         Some(argument) => of_brdf(argument, effort, quiet)?,
         None => {
             let model = args.model.as_deref().map(crate::models::find).transpose()?;
-            let _waiting = Waiting::new("samples", quiet);
-            model.map_or_else(|| sampling::models(effort), |model| sampling::model(model, effort))
+            let catalogue = model.map_or_else(|| Catalogue::new(effort), |model| Catalogue::of(model, effort));
+            let bar = Progress::new("samplers", catalogue.len() as u64, quiet);
+            catalogue.verify(&|| bar.advance(1))
         }
     };
     let text = if json { format!("{:#}\n", json!(suite)) } else { suite.to_string() };

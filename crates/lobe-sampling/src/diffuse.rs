@@ -1,20 +1,12 @@
 //! Diffuse lobes, by the cosine or by one that is transformed.
 
-use crate::draw::{Draw, sample_by_drawing, tilted, times_pi};
-use crate::map::{azimuth, cosine_hemisphere};
+use crate::draw::{Draw, sample_by_drawing, tilted};
+use crate::map::azimuth;
 use core::f64::consts::{FRAC_1_PI, TAU};
 use lobe::{Brdf, BurleyDiffuse, Eon, Lambert, OrenNayar, OrenNayarQualitative, Real, Rgb, Vec3};
 
 /// By the cosine: the weight is the albedo, for every sample.
 impl<R: Real> Draw<R> for Lambert<R> {
-    #[inline(always)]
-    fn direction(&self, _: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
-        cosine_hemisphere([x, y])
-    }
-    #[inline(always)]
-    fn density(&self, l: Vec3<R>, _: Vec3<R>) -> R {
-        l.z.times(FRAC_1_PI)
-    }
     #[inline(always)]
     fn weight(&self, _: Vec3<R>, _: Vec3<R>, _: R) -> Rgb<R> {
         self.albedo()
@@ -25,39 +17,19 @@ impl<R: Real> Draw<R> for Lambert<R> {
     }
 }
 
-/// Lobes that are sampled by the cosine; `π f_r` is finite where the cosine is 0.
+/// Lobes that are drawn by the cosine, and reflect about their albedo.
 macro_rules! by_the_cosine {
-    ($($(#[$doc:meta])* $lobe:ident)+) => {$(
-        $(#[$doc])*
+    ($($lobe:ident)+) => {$(
+        /// By the cosine: the weight is `π f_r`, finite where the cosine is 0.
         impl<R: Real> Draw<R> for $lobe<R> {
-            #[inline(always)]
-            fn direction(&self, _: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
-                cosine_hemisphere([x, y])
-            }
-            #[inline(always)]
-            fn density(&self, l: Vec3<R>, _: Vec3<R>) -> R {
-                l.z.times(FRAC_1_PI)
-            }
-            #[inline(always)]
-            fn weight(&self, l: Vec3<R>, v: Vec3<R>, _: R) -> Rgb<R> {
-                times_pi(self.eval(l, v))
-            }
             #[inline(always)]
             fn guess(&self, _: Vec3<R>) -> R {
                 self.albedo().luminance()
             }
         }
-        sample_by_drawing! { [] $lobe<R>; }
     )+};
 }
-by_the_cosine! {
-    /// By the cosine: the weight is `π f_r`.
-    OrenNayar
-    /// By the cosine: the weight is `π f_r`.
-    OrenNayarQualitative
-    /// By the cosine: the weight is `π f_r`.
-    BurleyDiffuse
-}
+by_the_cosine! { OrenNayar OrenNayarQualitative BurleyDiffuse }
 
 /// A cosine lobe that is transformed by `((a, 0, b), (0, c, 0), (d, 0, 1))`, in the frame whose x is the azimuth of the
 /// viewer, and of which what lies below the horizon is cut off before.
@@ -152,5 +124,8 @@ impl<R: Real> Draw<R> for Eon<R> {
 
 sample_by_drawing! {
     [] Lambert<R>;
+    [] OrenNayar<R>;
+    [] OrenNayarQualitative<R>;
+    [] BurleyDiffuse<R>;
     [] Eon<R>;
 }

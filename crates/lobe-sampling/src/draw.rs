@@ -2,18 +2,32 @@
 //! maps.
 
 use crate::Sampled;
-use crate::map::azimuth;
+use crate::map::{azimuth, cosine_hemisphere};
 use crate::rules::{above, nan_of};
+use core::f64::consts::{FRAC_1_PI, PI};
 use lobe::{Brdf, Real, Rgb, Vec3};
 
-/// What is particular to the sampler of a lobe. The horizon and NaN are the same for all: [`sample`], [`pdf`].
+/// What is particular to the sampler of a lobe: by the cosine, where it says nothing else. The horizon and NaN are the
+/// same for all: [`sample`], [`pdf`].
 pub(crate) trait Draw<R: Real>: Brdf<R> {
     /// A unit vector, finite for each `u` in `[0, 1)³` and each unit vector `v`.
-    fn direction(&self, v: Vec3<R>, u: [R; 3]) -> Vec3<R>;
+    #[inline(always)]
+    fn direction(&self, _: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
+        cosine_hemisphere([x, y])
+    }
     /// The density of `l` in sr⁻¹, where both directions are above the horizon; elsewhere it is not used.
-    fn density(&self, l: Vec3<R>, v: Vec3<R>) -> R;
+    #[inline(always)]
+    fn density(&self, l: Vec3<R>, _: Vec3<R>) -> R {
+        l.z.times(FRAC_1_PI)
+    }
     /// `f_r (n·l)/pdf`, with what both have in common cancelled; `pdf` is that of [`density`](Self::density), above 0.
-    fn weight(&self, l: Vec3<R>, v: Vec3<R>, pdf: R) -> Rgb<R>;
+    ///
+    /// By the cosine it is `π f_r`.
+    #[inline(always)]
+    fn weight(&self, l: Vec3<R>, v: Vec3<R>, _: R) -> Rgb<R> {
+        let value = self.eval(l, v);
+        Rgb::new(value.r.times(PI), value.g.times(PI), value.b.times(PI))
+    }
     /// About the albedo at `v`, above the horizon, as luminance.
     fn guess(&self, v: Vec3<R>) -> R;
 }
@@ -83,13 +97,4 @@ pub(crate) fn tilted<R: Real>(t: R, y: R) -> Vec3<R> {
     let (sin_phi, cos_phi) = azimuth(y);
     let sin = (t * (t.lift(2.0) - t)).sqrt();
     Vec3::new(sin * cos_phi, sin * sin_phi, t.lift(1.0) - t)
-}
-
-/// `c · π`, for weights of what is sampled by the cosine: `f_r (n·l)/((n·l)/π)`.
-#[inline(always)]
-pub(crate) fn times_pi<R: Real>(c: Rgb<R>) -> Rgb<R> {
-    c.map(
-        #[inline(always)]
-        |c| c.times(core::f64::consts::PI),
-    )
 }

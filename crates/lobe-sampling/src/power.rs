@@ -5,7 +5,7 @@
 //! last place of the direction moves it by `√q u` and more down the lobe, but the weight, from which the lobe has
 //! cancelled, by `u`.
 
-use crate::draw::{Draw, mirrored, sample_by_drawing, scaled_sum, tilted, times_pi};
+use crate::draw::{Draw, mirrored, sample_by_drawing, scaled_sum, tilted};
 use crate::map::{azimuth, cosine_hemisphere};
 use crate::rules::by_facet;
 use crate::special::{exp_m1, ln_complement};
@@ -201,18 +201,6 @@ impl<R: Real> Draw<R> for AshikhminShirley<R> {
 
 /// By the cosine: the weight is `28/23 ρ (1 − f0)` of what is let in both ways.
 impl<R: Real> Draw<R> for AshikhminShirleyDiffuse<R> {
-    #[inline(always)]
-    fn direction(&self, _: Vec3<R>, [_, x, y]: [R; 3]) -> Vec3<R> {
-        cosine_hemisphere([x, y])
-    }
-    #[inline(always)]
-    fn density(&self, l: Vec3<R>, _: Vec3<R>) -> R {
-        l.z.times(FRAC_1_PI)
-    }
-    #[inline(always)]
-    fn weight(&self, l: Vec3<R>, v: Vec3<R>, _: R) -> Rgb<R> {
-        times_pi(self.eval(l, v))
-    }
     /// The albedo itself: that of light along the normal is `31/32` let in, that of all light `23/28`.
     #[inline(always)]
     fn guess(&self, v: Vec3<R>) -> R {

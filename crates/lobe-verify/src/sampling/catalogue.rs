@@ -2,7 +2,7 @@
 
 use super::random::seed;
 use super::sampler::{InDouble, InSingle, Sampler};
-use super::{Effort, Suite, verify_all, view};
+use super::{Effort, Suite, counted, view};
 use crate::extremes::{Random, grid_values, is_logarithmic, lobe};
 use lobe::distribution::{Beckmann, Ggx};
 use lobe::fresnel::Schlick;
@@ -15,8 +15,7 @@ use lobe_sampling::{ByCosine, SampleBy};
 /// Cosine and azimuth of the views: along the normal, grazing and oblique, and between.
 const VIEWS: [(f64, f64); 5] = [(1.0, 0.0), (0.01, 75.0), (0.5, 30.0), (0.1, 120.0), (0.9, 210.0)];
 
-/// [`verify_all`] of the samplers of this workspace, at the first [`Effort::views`] of five views with cosines from 1
-/// to 0.01:
+/// The samplers of this workspace, at the first [`Effort::views`] of five views with cosines from 1 to 0.01:
 ///
 /// - [`Effort::lobes`] lobes of each model of the catalogue or more, so that each value that counts for a sampler is
 ///   there: each word of a choice, widths of 1e-3, 0.05, 0.3 and 1 and aspects to 16, exponents from 0 to 1e6,
@@ -24,28 +23,75 @@ const VIEWS: [(f64, f64); 5] = [(1.0, 0.0), (0.01, 75.0), (0.5, 30.0), (0.1, 120
 /// - the sharp ones among them in `f32` too, and an ordinary one;
 /// - GGX by each way to draw its facets, mixtures of up to four lobes, with a mirror too, and coats.
 ///
-/// With [`Effort::QUICK`] a quarter of a minute of two cores, with [`Effort::FULL`] hours.
+/// ```
+/// use lobe_verify::sampling::{Catalogue, Effort};
+///
+/// let lambert = lobe_models::models().find(|model| model.name == "lambert").unwrap();
+/// let catalogue = Catalogue::of(lambert, Effort { views: 1, ..Effort::QUICK });
+/// let suite = catalogue.verify(&|| print!("."));
+/// assert!(suite.holds() && suite.reports.len() == catalogue.len());
+/// ```
+#[expect(missing_debug_implementations, reason = "samplers in boxes show nothing")]
+pub struct Catalogue {
+    list: List,
+    effort: Effort,
+}
+
+impl Catalogue {
+    /// All of them.
+    #[must_use]
+    pub fn new(effort: Effort) -> Self {
+        Self { list: List::new(effort), effort }
+    }
+
+    /// Those of one model.
+    #[must_use]
+    pub fn of(model: &Model, effort: Effort) -> Self {
+        let mut list = List::new(effort);
+        list.double.retain(|(name, _)| is_of(name, model));
+        list.single.retain(|(name, _)| is_of(name, model));
+        Self { list, effort }
+    }
+
+    /// How many samplers there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.list.double.len() + self.list.single.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The verdicts of [`verify_all`](super::verify_all); `done` is called after each sampler.
+    #[must_use]
+    pub fn verify(&self, done: &(dyn Fn() + Sync)) -> Suite {
+        let double: Vec<_> = self.list.double.iter().map(|(name, lobe)| (&**name, InDouble(&**lobe))).collect();
+        let single: Vec<_> = self.list.single.iter().map(|(name, lobe)| (&**name, InSingle(&**lobe))).collect();
+        let mut samplers: Vec<_> = double.iter().map(|(name, lobe)| (*name, lobe as &dyn Sampler)).collect();
+        samplers.extend(single.iter().map(|(name, lobe)| (*name, lobe as &dyn Sampler)));
+        let views: Vec<_> = VIEWS.iter().take(self.effort.views).map(|(cos, azimuth)| view(*cos, *azimuth)).collect();
+        counted(&samplers, &views, &self.effort, done)
+    }
+}
+
+/// [`Catalogue::verify`] of all samplers of this workspace: with [`Effort::QUICK`] a quarter of a minute of two cores,
+/// with [`Effort::FULL`] half an hour.
 #[must_use]
 pub fn models(effort: Effort) -> Suite {
-    selected(effort, |_| true)
+    Catalogue::new(effort).verify(&|| ())
 }
 
 /// [`models`], of one model alone.
 #[must_use]
 pub fn model(model: &Model, effort: Effort) -> Suite {
-    selected(effort, |name| name.split(' ').next() == Some(model.name))
+    Catalogue::of(model, effort).verify(&|| ())
 }
 
-fn selected(effort: Effort, wanted: impl Fn(&str) -> bool) -> Suite {
-    let List { mut double, mut single } = List::new(effort);
-    double.retain(|(name, _)| wanted(name));
-    single.retain(|(name, _)| wanted(name));
-    let double: Vec<_> = double.iter().map(|(name, lobe)| (name.as_str(), InDouble(&**lobe))).collect();
-    let single: Vec<_> = single.iter().map(|(name, lobe)| (name.as_str(), InSingle(&**lobe))).collect();
-    let mut samplers: Vec<_> = double.iter().map(|(name, lobe)| (*name, lobe as &dyn Sampler)).collect();
-    samplers.extend(single.iter().map(|(name, lobe)| (*name, lobe as &dyn Sampler)));
-    let views: Vec<_> = VIEWS.iter().take(effort.views).map(|(cos, azimuth)| view(*cos, *azimuth)).collect();
-    verify_all(&samplers, &views, effort)
+fn is_of(name: &str, model: &Model) -> bool {
+    name.split(' ').next() == Some(model.name)
 }
 
 /// A sampler with its name.
@@ -262,7 +308,7 @@ mod tests {
             let different: std::collections::HashSet<_> = names.iter().collect();
             assert_eq!(names.len(), different.len());
             for model in lobe_models::models() {
-                let of_model = names.iter().filter(|name| name.split(' ').next() == Some(model.name)).count();
+                let of_model = names.iter().filter(|name| is_of(name, model)).count();
                 assert!(of_model > 1, "{}: {of_model}", model.name);
             }
         }

@@ -114,8 +114,7 @@ impl Plan<'_> {
                     tally.lost += 1;
                     return;
                 };
-                let bin = self.bins.of_cell.get(self.partition.find(place));
-                if let Some(count) = bin.and_then(|bin| tally.bins.get_mut(*bin)) {
+                if let Some(count) = self.bins.find(place).and_then(|bin| tally.bins.get_mut(bin)) {
                     *count += 1;
                 }
                 for ((edges, counts), x) in self.edges.iter().zip(&mut tally.between).zip(place) {

@@ -43,7 +43,7 @@ mod suite;
 mod variance;
 mod view;
 
-pub use catalogue::{model, models};
+pub use catalogue::{Catalogue, model, models};
 pub use claims::Claims;
 pub use random::Points;
 pub use report::{Case, Fit, Observed, Outcome, Property, Report, Suite, Verdict, View};
@@ -143,9 +143,17 @@ pub fn verify_with<K>(
 /// share the significance.
 #[must_use]
 pub fn verify_all(samplers: &[(&str, &dyn Sampler)], views: &[[f64; 3]], effort: Effort) -> Suite {
-    let reports =
-        samplers.par_iter().map(|(name, sampler)| report(name, *sampler, &sampler.claims(), views, &effort)).collect();
-    Suite::judged(effort.significance, reports)
+    counted(samplers, views, &effort, &|| ())
+}
+
+/// [`verify_all`]; `done` is called after each sampler.
+fn counted(samplers: &[(&str, &dyn Sampler)], views: &[[f64; 3]], effort: &Effort, done: &(dyn Fn() + Sync)) -> Suite {
+    let of = |(name, sampler): &(&str, &dyn Sampler)| {
+        let report = report(name, *sampler, &sampler.claims(), views, effort);
+        done();
+        report
+    };
+    Suite::judged(effort.significance, samplers.par_iter().map(of).collect())
 }
 
 /// [`verify_all`] of lobes in boxes.

@@ -448,7 +448,8 @@ impl Partition {
         if target > 0.0 {
             self.thin(density, 0.25 * target);
         }
-        let mut bins = Bins { of_cell: vec![0; self.cells.len()], bins: Vec::new() };
+        let mut bins = Vec::new();
+        let mut of_cell = vec![0; self.cells.len()];
         let (mut open, mut errors): (Option<Bin>, _) = (None, Errors::default());
         for (index, rule, cell) in self.leaves() {
             let bin = open.get_or_insert(Bin { mass: 0.0, error: 0.0, low: [1.0; 2], high: [0.0; 2] });
@@ -461,27 +462,51 @@ impl Partition {
             for (side, x) in bin.high.iter_mut().zip(cell.high) {
                 *side = side.max(x);
             }
-            if let Some(slot) = bins.of_cell.get_mut(index) {
-                *slot = bins.bins.len();
+            if let Some(slot) = of_cell.get_mut(index) {
+                *slot = bins.len();
             }
             // The last leaves go with the bin before them if they are few.
             if bin.mass >= target {
-                bins.bins.extend(open.take());
+                bins.extend(open.take());
                 errors = Errors::default();
             }
         }
-        bins.bins.extend(open);
-        bins
+        bins.extend(open);
+        Bins { bins, tree: self.pruned(of_cell) }
     }
 
-    /// The leaf that a place is in.
-    pub(crate) fn find(&self, place: [f64; 2]) -> usize {
-        let mut index = 0;
-        while let Some(split) = self.cells.get(index).and_then(|cell| cell.split) {
-            let x = place.get(split.axis).copied().unwrap_or_default();
-            index = split.first + usize::from(x >= split.at);
+    /// The splits that tell bins apart, from the bin of each leaf: of the whole tree, some tens of megabytes, most places
+    /// are not in the cache, and four million samples spend most of their time there.
+    fn pruned(&self, mut of_cell: Vec<usize>) -> Vec<Step> {
+        let split_of = |index: usize| self.cells.get(index).and_then(|cell| cell.split);
+        let mut apart = vec![false; self.cells.len()];
+        // Halves stand behind what they are halves of.
+        for index in (0..self.cells.len()).rev() {
+            let Some(Split { first, .. }) = split_of(index) else { continue };
+            let known = |half: usize| (apart.get(half).copied(), of_cell.get(half).copied());
+            let (low, high) = (known(first), known(first + 1));
+            let differ = low.0 == Some(true) || low != high;
+            if let (Some(apart), Some(slot), Some(bin)) = (apart.get_mut(index), of_cell.get_mut(index), low.1) {
+                (*apart, *slot) = (differ, bin);
+            }
         }
-        index
+        let step = |index: usize| match split_of(index).filter(|_| apart.get(index) == Some(&true)) {
+            Some(split) => Step::Split(split),
+            None => Step::Bin(of_cell.get(index).copied().unwrap_or_default()),
+        };
+        let mut tree = vec![step(0)];
+        let mut at = 0;
+        while let Some(&next) = tree.get(at) {
+            if let Step::Split(split) = next {
+                let first = tree.len();
+                tree.extend([step(split.first), step(split.first + 1)]);
+                if let Some(slot) = tree.get_mut(at) {
+                    *slot = Step::Split(Split { first, ..split });
+                }
+            }
+            at += 1;
+        }
+        tree
     }
 
     /// The mass below each of some ascending coordinates along an axis.
@@ -630,9 +655,31 @@ fn point(density: &Density<'_>, l: [f64; 3], bad: &mut Option<([f64; 3], f64)>) 
 /// Bins of a test of fit.
 #[derive(Clone, Debug)]
 pub(crate) struct Bins {
-    /// The bin of each cell that is a leaf.
-    pub(crate) of_cell: Vec<usize>,
     pub(crate) bins: Vec<Bin>,
+    tree: Vec<Step>,
+}
+
+/// Where a place is looked for next, or what it is in.
+#[derive(Clone, Copy, Debug)]
+enum Step {
+    Split(Split),
+    Bin(usize),
+}
+
+impl Bins {
+    /// The bin that a place is in.
+    pub(crate) fn find(&self, place: [f64; 2]) -> Option<usize> {
+        let mut index = 0;
+        loop {
+            match self.tree.get(index)? {
+                Step::Split(split) => {
+                    let x = low_of(&place, split.axis);
+                    index = split.first + usize::from(*x >= split.at);
+                }
+                Step::Bin(bin) => return Some(*bin),
+            }
+        }
+    }
 }
 
 /// A bin: its mass, the error of that, and a box of `(a, s)` around it.
