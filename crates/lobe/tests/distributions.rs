@@ -384,16 +384,19 @@ proptest! {
     }
 }
 
-/// Linear pieces have corners, where the quadrature of the table is not at its best.
+/// Linear pieces have corners: without a stop at each the quadrature is off by up to 20 %, for a peak of 10° at the
+/// horizon.
 #[test]
 fn smiths_function_of_a_drawn_distribution() {
     let bell = |i: usize| (-(i as f64 / 6.0).powi(2)).exp();
-    let ring = |i: usize| if i == 9 { 1.0 } else { 0.0 };
     let rough = |i: usize| f64::from([3_u8, 1, 4, 1, 5, 9, 2, 6, 5, 3][i % 10]);
-    let shapes: [&dyn Fn(usize) -> f64; 4] = [&bell, &ring, &rough, &|_| 1.0];
+    let shapes: [&dyn Fn(usize) -> f64; 3] = [&bell, &rough, &|_| 1.0];
+    let tables = shapes.map(|shape| std::array::from_fn::<f64, 19, _>(shape)).into_iter();
+    // Of two steps around each of the angles; the last is that of the horizon, where nothing is left of the area.
+    let rings = (0..18).map(|at| std::array::from_fn(|i| if i == at { 1.0 } else { 0.0 }));
     let mut worst = 0.0_f64;
-    for shape in shapes {
-        let d = Tabulated::new(std::array::from_fn::<f64, 19, _>(shape));
+    for shape in tables.chain(rings) {
+        let d = Tabulated::new(shape);
         let table = SmithTable::<_, f64>::new(d, Alpha(0.5));
         for theta_w in [0.0, 0.3, 0.8, 1.2, 1.5] {
             let w = direction(theta_w, 0.7);
@@ -407,11 +410,12 @@ fn smiths_function_of_a_drawn_distribution() {
                     area += value * w.dot(direction(theta, (f64::from(j) + 0.5) * turn)).max(0.0);
                 }
             }
-            worst = worst.max(((w.z + table.lambda_cos(w)) / (area * step * turn) - 1.0).abs());
+            let error = ((w.z + table.lambda_cos(w)) / (area * step * turn) - 1.0).abs();
+            worst = worst.max(error);
         }
     }
     println!("worst error of (1 + Λ) cos θ: {worst:e}");
-    assert!(worst < 0.02, "{worst:e}");
+    assert!(worst < 4e-4, "{worst:e}");
 }
 
 /// Where a stretched copy of the isotropic table stands for what it is not: the slopes of these do not keep their shape.

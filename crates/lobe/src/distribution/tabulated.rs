@@ -80,6 +80,10 @@ impl<R: Real, const N: usize> Distribution<R> for Tabulated<R, N> {
         let angle = (h.x.squared() + h.y.squared()).sqrt().atan2(h.z);
         interpolate(angle.times((N - 1) as f64 / FRAC_PI_2), &self.values)
     }
+    #[inline(always)]
+    fn pieces(&self) -> usize {
+        N - 1
+    }
 }
 
 /// `Σ vᵢ max(0, 1 − |x − i|)`.
