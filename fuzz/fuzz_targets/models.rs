@@ -1,10 +1,10 @@
-//! Every model of the catalogue on any direction and any parameters of its domain: what `Brdf` promises, and no panic
-//! beyond it.
+//! Every model of the catalogue on any direction and any parameters of its domain: what `Brdf` and `Sample` promise, and
+//! no panic beyond it.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use lobe::{Rgb, Vec3};
-use lobe_fuzz::{Bits, channels, components, same};
+use lobe_fuzz::{Bits, channels, components, is_unit, same};
 use lobe_models::{Kind, Lobe, Parameter, Value, models};
 
 /// A value of the parameter's domain.
@@ -55,5 +55,22 @@ fuzz_target!(|input: &[u8]| {
     } else {
         assert!(lowest < f32::MIN_POSITIVE || good(cos), "{lobe:?}: {cos:?} at {l:?} {v:?}");
         assert!(lowest < 1e-20 || !model.finite || good(f), "{lobe:?}: {f:?} at {l:?} {v:?}");
+    }
+
+    // Its samples, from any numbers and from those of [0, 1).
+    let sampler = lobe.sampler::<f32>();
+    let any = [bits.float(), bits.float(), bits.float()];
+    let _ = (sampler.sample(bits.vector(), any), sampler.pdf(bits.vector(), v));
+    let u = [(); 3].map(|()| bits.up_to(1.0).min(1.0 - f32::EPSILON / 2.0));
+    let sampled = sampler.sample(v, u);
+    let told = || format!("{lobe:?}: {sampled:?} from {v:?} by {u:?}");
+    if v.z <= 0.0 || sampled.rejected {
+        assert!(sampled.rejected && channels(sampled.weight) == [0.0; 3], "{}", told());
+    } else if v.z > 1e-8 {
+        assert!(is_unit(sampled.l) && sampled.l.z > 0.0 && good(sampled.weight), "{}", told());
+        assert!(sampled.delta || sampled.pdf > 0.0 && sampled.pdf.is_finite(), "{}", told());
+        let (f_cos, pdf) = sampler.eval_cos_pdf(sampled.l, v);
+        let near = |pdf: f32| (pdf - sampled.pdf).abs() <= 1e-3 * pdf.max(sampled.pdf);
+        assert!(good(f_cos) && near(pdf) && near(sampler.pdf(sampled.l, v)), "{}: {f_cos:?}, {pdf}", told());
     }
 });
