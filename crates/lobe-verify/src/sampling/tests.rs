@@ -1,7 +1,7 @@
 use super::mutants::{Fault, Mixed, Model, Port, survey};
 use super::statistics::{binomial, kolmogorov_tail};
 use super::*;
-use lobe::{Lambert, Rgb, Vec3};
+use lobe::{AshikhminShirley, Lambert, Rgb, Shininess, Vec3};
 use lobe_sampling::Outcome as Drawn;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
@@ -258,9 +258,9 @@ fn the_table_of_variances_has_what_is_known() {
 }
 
 /// A sampler of which all that goes in and out is rounded to `f32`.
-struct Rounded(Port);
+struct Rounded<S>(S);
 
-impl Sampler for Rounded {
+impl<S: Sampler> Sampler for Rounded<S> {
     fn sample(&self, v: [f64; 3], u: [f64; 3]) -> Drawn<f64> {
         let round = |x: f64| f64::from(x as f32);
         match self.0.sample(v, u) {
@@ -300,6 +300,29 @@ fn rounding_to_single_precision_is_no_fault() {
     for view in suite.reports.iter().flat_map(|report| &report.views) {
         assert!(view.integral_error < 1e-3, "{view}");
     }
+}
+
+/// Where hardly anything is rejected, and the density integrates to a little more than 1.
+#[test]
+fn a_density_that_rounding_lifts_is_no_fault() {
+    let cosine = Port::sound(Model::Cosine);
+    let seldom = |v, u: [f64; 3]| if u[0] < 8e-6 { Drawn::Rejected } else { cosine.sample(v, u) };
+    let sampler = Rounded(OfFn::new(seldom, |l, v| cosine.pdf(l, v) * (1.0 + 4e-7)));
+    let effort = Effort { samples: 1 << 19, ..Effort::QUICK };
+    let report = verify_with("lifted", &&sampler, &sampler.claims(), &views(), effort);
+    assert!(report.holds(), "{report}");
+    assert!(report.views.iter().all(|view| view.integral > 1.0 && view.rejected > 0.0), "{report}");
+}
+
+/// A lobe a hundred and forty times as wide one way as the other: 2e-5 of it is in a tail that one sample of a sixty-fourth
+/// of all is in.
+#[test]
+fn no_tail_is_missed_that_samples_are_in() {
+    let brushed = AshikhminShirley::new(Rgb::splat(0.8), Shininess(1e6), Shininess(50.0));
+    let name = "ashikhmin-shirley-anisotropic f0=[0.8, 0.5, 0.2] nu=1000000 nv=50";
+    let effort = Effort { samples: 1 << 20, ..Effort::FULL };
+    let report = verify_with(name, &brushed, &Claims::LOBE, &[view(1.0, 0.0)], effort);
+    assert!(report.holds(), "{report}");
 }
 
 /// A peak of the lobe that the sampler meets once in a million samples is in the albedo all the same.
