@@ -37,12 +37,12 @@ const WARD_BOUNDED: Bound = Bound::Derived {
     at: |p, l, v| down_the_lobe(28.0, 16.0, gauss(p, l, v)),
 };
 const ASHIKHMIN_SHIRLEY: Bound = Bound::Derived {
-    formula: "u (40 + 24 L)",
-    at: |p, l, v| down_the_lobe(40.0, 24.0, half_vector(p.number("q"), p.number("q"), l, v)),
+    formula: "u (64 + 26 L)",
+    at: |p, l, v| down_the_lobe(64.0, 26.0, half_vector(p.number("q"), p.number("q"), l, v)),
 };
 const ASHIKHMIN_SHIRLEY_ANISOTROPIC: Bound = Bound::Derived {
-    formula: "u (40 + 24 L)",
-    at: |p, l, v| down_the_lobe(40.0, 24.0, half_vector(p.number("nu"), p.number("nv"), l, v)),
+    formula: "u (64 + 26 L)",
+    at: |p, l, v| down_the_lobe(64.0, 26.0, half_vector(p.number("nu"), p.number("nv"), l, v)),
 };
 const LAFORTUNE: Bound = Bound::Derived {
     formula: "u (8 + 6 L + 11 q (1/c - 1)), c the part of the largest value",

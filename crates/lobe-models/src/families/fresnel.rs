@@ -115,18 +115,24 @@ pub(super) fn excess(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     if [f.r, f.g, f.b].iter().any(|f| (f64::MIN_POSITIVE..1e-30).contains(f)) {
         return f64::INFINITY;
     }
-    // F82-tint and Lazányi are a difference. Its second part is a product of the cosine, which has four ulps of its own
-    // here, and of a sixth power of what is left to 1: 18u; the first has 8u, and the difference is rounded.
-    let of_schlick = |a: Rgb<f64>| {
+    // F82-tint and Lazányi are a difference. Its second part is a product of the cosine and of a power of what is left to
+    // 1, `sin²/(1 + cos)`: that has 10u, five of the square of `l − v`, one of the denominator, four of a division that is
+    // shared; and the power so many times as much. The cosine has 4u, the factor 7u, the first part 8u, and the difference
+    // is rounded.
+    let of_schlick = |a: Rgb<f64>, exponent: f64| {
         let schlick = Schlick::new(p.rgb(F0.name)).fresnel(at);
+        let error = (20.0 + 10.0 * exponent) * U;
         largest(
             [(schlick.r.max(a.r), f.r), (schlick.g.max(a.g), f.g), (schlick.b.max(a.b), f.b)]
-                .map(|(s, f)| 32.0 * U * s / f),
+                .map(|(s, f)| error * s / f),
         )
     };
     match p.choice(FORM.name) {
-        "f82-tint" => of_schlick(Rgb::splat(0.0)),
-        "lazanyi" => of_schlick(p.rgb(A.name) * (at.cos * at.one_minus_cos.powf(p.number(EXPONENT.name)))),
+        "f82-tint" => of_schlick(Rgb::splat(0.0), 6.0),
+        "lazanyi" => {
+            let exponent = p.number(EXPONENT.name);
+            of_schlick(p.rgb(A.name) * (at.cos * at.one_minus_cos.powf(exponent)), exponent)
+        }
         "conductor" => {
             let conductor = conductor(p);
             let (eta, k) = (<[f64; 3]>::from(conductor.eta()), <[f64; 3]>::from(conductor.k()));

@@ -5,7 +5,7 @@ use crate::{Bound, Model, Number, Parameter, Reader, Value};
 use lobe::distribution::{Ggx, GgxAnisotropic};
 use lobe::fresnel::Schlick;
 use lobe::masking::SmithCorrelated;
-use lobe::{Alpha, Clearcoat, Coat, Lambert, MetallicRoughness, Microfacet, SheenLayer, Vec3};
+use lobe::{Alpha, Clearcoat, Coat, Lambert, MetallicRoughness, Microfacet, Real as _, Rgb, SheenLayer, Vec3};
 
 const ROUGHNESS: Parameter = Parameter::number("roughness", 0.01, 1.0, "the perceptual roughness, whose square is α");
 
@@ -16,7 +16,7 @@ pub(super) static MODELS: &[Model] = &[
         parameters: GLTF,
         reciprocal: true,
         finite: true,
-        bound: Bound::Constant,
+        bound: Bound::Derived { formula: OF_BASE, at: gltf_bound },
         build: constructors!(gltf),
     },
     Model {
@@ -25,7 +25,7 @@ pub(super) static MODELS: &[Model] = &[
         parameters: GLTF_CLEARCOAT,
         reciprocal: false,
         finite: true,
-        bound: Bound::Constant,
+        bound: Bound::Derived { formula: OF_BASE, at: clearcoat_bound },
         build: constructors!(gltf_clearcoat),
     },
     Model {
@@ -34,7 +34,7 @@ pub(super) static MODELS: &[Model] = &[
         parameters: GLTF_SHEEN,
         reciprocal: true,
         finite: true,
-        bound: Bound::Derived { formula: "2e-5 + that of charlie + 40u base/f", at: sheen_bound },
+        bound: Bound::Derived { formula: "that of gltf + that of charlie + 40u base/f", at: sheen_bound },
         build: constructors!(gltf_sheen),
     },
     Model {
@@ -52,6 +52,8 @@ pub(super) static MODELS: &[Model] = &[
     },
 ];
 
+/// The unit roundoff of `f32`.
+const U: f64 = 1.0 / 16_777_216.0;
 const UNIT: Parameter = Parameter::number("", 0.0, 1.0, "");
 const GLTF: &[Parameter] = &[
     Parameter::reflectance("base-color", "the base colour"),
@@ -135,9 +137,30 @@ constructor! { coat |p, finish| {
     finish(Coat::new(top, interface, Lambert::new(p.rgb("albedo"))))
 } }
 
+const OF_BASE: &str = "2e-5 + 8u w f0 (1 − metallic) base-color/(π f), f0 = ((η − 1)/(η + 1))² specular-color";
+
+/// The diffuse base has what is left of 1 by `w max(f0)`, which has eight roundings: near 1 they are all that is left.
+fn of_base(p: &Reader<'_, f64>, f: Rgb<f64>) -> f64 {
+    let (base, color, ior) = (p.rgb("base-color"), p.rgb("specular-color"), p.number("ior"));
+    let f0 = (color.r.max(color.g).max(color.b) * ((ior - 1.0) / (ior + 1.0)).squared()).min(1.0);
+    let error = 8.0 * U * p.number("specular") * f0 * (1.0 - p.number("metallic")) * core::f64::consts::FRAC_1_PI;
+    // Nothing of nothing.
+    let of = |base: f64, f: f64| if error * base == 0.0 { 0.0 } else { error * base / f };
+    Bound::WORST + of(base.r, f.r).max(of(base.g, f.g)).max(of(base.b, f.b))
+}
+
+fn gltf_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+    of_base(p, gltf::brdf(p).brdf.eval(l, v))
+}
+
+/// The coat lets through 1 at most.
+fn clearcoat_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
+    of_base(p, gltf_clearcoat::brdf(p).brdf.eval(l, v))
+}
+
 /// What the base is scaled with is 1 less something near 1: its error counts as far as the base is seen.
 fn sheen_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     let (base, layered) = (gltf::brdf(p).brdf.eval(l, v), gltf_sheen::brdf(p).brdf.eval(l, v));
     let seen = [base.r / layered.r, base.g / layered.g, base.b / layered.b].into_iter().fold(0.0, f64::max);
-    Bound::WORST + super::diffuse::of_sheen(alpha(p, "sheen-roughness").0, l, v) + 40.0 * seen / 16_777_216.0
+    of_base(p, layered) + super::diffuse::of_sheen(alpha(p, "sheen-roughness").0, l, v) + 40.0 * U * seen
 }

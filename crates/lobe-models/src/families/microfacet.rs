@@ -173,7 +173,7 @@ fn any_smith<R: Number>(p: &Reader<'_, R>) -> AnySmith<R> {
 
 /// What the two excesses are, in a line.
 const FORMULA: &str = "2e-5; beckmann: and 26u t, t = tan²θ_h/α²; blinn, gaussian: and 52u L of D; student-t: and 26u γ; \
-                       f82-tint, lazanyi: and 32u S/F of Schlick's part S; conductor with η, k < 1: and \
+                       f82-tint, lazanyi: and (20 + 10e)u S/F of Schlick's part S, e = 6 or the exponent; conductor with η, k < 1: and \
                        12u (1 + k²)((cos θ + |w|)/(|w| |1 − (η + ik)²|) + 1/|w|²), w² = (η + ik)² − sin²θ";
 
 /// By how much the relative error of `D(h)` may exceed a constant.

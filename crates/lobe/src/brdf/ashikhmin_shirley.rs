@@ -23,11 +23,12 @@ use core::f64::consts::PI;
 /// `eval_cos` ends at 2¹²⁷, which no cosine above 3e-34 reaches; `eval` has no such end, and leaves the range of `f32`
 /// along the mirror direction below cosines of `√((nu+1)(nv+1))^½ 1e-20`.
 ///
-/// Error against `f64` of the same inputs, `u = 2⁻²⁴`, `L = |ln (n·h)^e|`: `|δf/f| ≤ u (40 + 24 L)`. It grows with how far
+/// Error against `f64` of the same inputs, `u = 2⁻²⁴`, `L = |ln (n·h)^e|`: `|δf/f| ≤ u (64 + 26 L)`. It grows with how far
 /// down the lobe the value is, and not with the exponents. *Derivation.* Of `s = l + v` each component is off by `u`; the
-/// shares `s.x²/(s.x² + s.y²)` by `8u`, the mean of the exponents by `10u`, all terms being positive; `tan²` by `7u`, its
-/// logarithm by `5u` more, the product by one: `24u L` with the second order. The factor has eight roundings, the cosine
-/// of the half angle five, the Fresnel term ten, the rest six, `exp2` two.
+/// shares `s.x²/(s.x² + s.y²)` by `9u`, the mean of the exponents by `11u`, all terms being positive; `tan²` by `7u`, its
+/// logarithm by `5u` more, the product by one: `26u L` with the second order. The factor has eight roundings, the cosine
+/// of the half angle five, the rest six, `exp2` two. Schlick's term of a black channel is a fifth power of `1 − cos =
+/// sin²/(1 + cos)`, which has `7.5u`, five of the square of `l − v`: `42u` with its own roundings.
 ///
 /// Values below 2⁻¹²⁶ of the lobe's peak are 0.
 ///
@@ -90,10 +91,10 @@ impl<R: Real> AshikhminShirley<R> {
         AshikhminShirley::new(self.f0.map(&f), self.nu.map(&f), self.nv.map(&f))
     }
 
-    /// `F · finish(peak (n·h)^e weight/(max(n·l, n·v) (l·h)))`, with one division for both quotients of the exponent. (One for the
+    /// `F · value(peak (n·h)^e, weight/max(n·l, n·v), l·h)`, with one division for both quotients of the exponent. (One for the
     /// cosines and for what Schlick's form takes would leave the range at the horizon.)
     #[inline(always)]
-    fn lobe(&self, l: Vec3<R>, v: Vec3<R>, weight: R, finish: impl Fn(R) -> R) -> Rgb<R> {
+    fn lobe(&self, l: Vec3<R>, v: Vec3<R>, weight: R, value: impl Fn(R, R, R) -> R) -> Rgb<R> {
         let s = (l + v) * l.z.lift(R::COSINE_SCALE);
         let (x2, y2, z2) = (s.x.squared(), s.y.squared(), s.z.squared().off_zero());
         let sin2 = x2 + y2;
@@ -105,10 +106,9 @@ impl<R: Real> AshikhminShirley<R> {
         // |l + v|/2; of rounded unit vectors it may exceed 1.
         let cos_d = (sin2 + z2).sqrt().times(0.5 / R::COSINE_SCALE).min(sin2.lift(1.0));
         let (incidence, share) = (Incidence::halfway(l, v, cos_d), weight / l.z.max(v.z));
-        let value = self.peak * power;
-        // A zero is kept: what it would be divided by may be 0 at the horizon. One after the other: the product of two cosines
-        // of 1e-20 underflows.
-        let value = R::select(value.eq(value.lift(0.0)), value, finish(value * share / cos_d));
+        let power = self.peak * power;
+        // A zero is kept: what it would be divided by may be 0 at the horizon.
+        let value = R::select(power.eq(power.lift(0.0)), power, value(power, share, cos_d));
         self.fresnel.fresnel(incidence) * keep_nan(l, v, value)
     }
 }
@@ -116,12 +116,13 @@ impl<R: Real> AshikhminShirley<R> {
 impl<R: Real> Brdf<R> for AshikhminShirley<R> {
     #[inline(always)]
     fn eval(&self, l: Vec3<R>, v: Vec3<R>) -> Rgb<R> {
+        // One after the other: the product of two cosines of 1e-20 underflows.
         self.lobe(
             l,
             v,
             l.z.lift(1.0),
             #[inline(always)]
-            |value| value,
+            |power, share, cos_d| power * share / cos_d,
         )
     }
 
@@ -132,10 +133,11 @@ impl<R: Real> Brdf<R> for AshikhminShirley<R> {
             l,
             v,
             l.z,
-            // Without the bound a pixel at the horizon is infinite, and the mean of its neighbours too (test
-            // `bounded_at_the_horizon`).
+            // The quotient first: both are as small as cosines, and what a share of 1e-18 leaves of the power is 0 (test
+            // `a_share_next_to_nothing_is_kept`). Without the bound a pixel at the horizon is infinite, and the mean of
+            // its neighbours too (test `bounded_at_the_horizon`).
             #[inline(always)]
-            |value| value.min(value.lift((1u128 << 127) as f64)),
+            |power, share, cos_d| (power * (share / cos_d)).min(power.lift((1u128 << 127) as f64)),
         )
     }
 }
