@@ -391,7 +391,7 @@ fn smiths_function_of_a_drawn_distribution() {
     let bell = |i: usize| (-(i as f64 / 6.0).powi(2)).exp();
     let rough = |i: usize| f64::from([3_u8, 1, 4, 1, 5, 9, 2, 6, 5, 3][i % 10]);
     let shapes: [&dyn Fn(usize) -> f64; 3] = [&bell, &rough, &|_| 1.0];
-    let tables = shapes.map(|shape| std::array::from_fn::<f64, 19, _>(shape)).into_iter();
+    let tables = shapes.map(std::array::from_fn::<f64, 19, _>).into_iter();
     // Of two steps around each of the angles; the last is that of the horizon, where nothing is left of the area.
     let rings = (0..18).map(|at| std::array::from_fn(|i| if i == at { 1.0 } else { 0.0 }));
     let mut worst = 0.0_f64;
