@@ -19,7 +19,7 @@ fn samplers_of_all_models_hold() {
 
 /// `cargo test --release -p lobe-verify --test sampling -- --ignored --nocapture`.
 #[test]
-#[ignore = "most of an hour"]
+#[ignore = "three quarters of an hour"]
 fn samplers_of_all_models_hold_in_full() {
     all_hold(&models(Effort::FULL));
 }

@@ -78,7 +78,7 @@ impl Catalogue {
 }
 
 /// [`Catalogue::verify`] of all samplers of this workspace: with [`Effort::QUICK`] a quarter of a minute of two cores,
-/// with [`Effort::FULL`] half an hour.
+/// with [`Effort::FULL`] three quarters of an hour.
 #[must_use]
 pub fn models(effort: Effort) -> Suite {
     Catalogue::new(effort).verify(&|| ())
