@@ -50,6 +50,21 @@ fn each(draws: &Draws, out: &mut Result, sample: impl Fn(Vec3<f32>, [f32; 3]) ->
     }
 }
 
+/// The same by calls, from points that lie as a path has them: put together from slices beside each call, their halves would have to
+/// be written before the call can read them whole, which is a sixth of the time of GGX by bounded normals and none of the sampler's.
+fn each_call<B: Sample<f32>>(lobe: &B, draws: &Draws, out: &mut Result) {
+    let (l, weight, pdf) = columns(out);
+    let n = pdf.len();
+    let (x, y, z) = (&mut l.x[..n], &mut l.y[..n], &mut l.z[..n]);
+    let (r, g, b) = (&mut weight.r[..n], &mut weight.g[..n], &mut weight.b[..n]);
+    for (i, (v, u)) in draws.points()[..n].iter().enumerate() {
+        let one = call(lobe, *v, *u);
+        (x[i], y[i], z[i]) = (one.l.x, one.l.y, one.l.z);
+        (r[i], g[i], b[i]) = (one.weight.r, one.weight.g, one.weight.b);
+        pdf[i] = one.pdf;
+    }
+}
+
 /// One sample, which no loop is inlined around.
 #[inline(never)]
 fn call<B: Sample<f32>>(lobe: &B, v: Vec3<f32>, u: [f32; 3]) -> Sampled<f32> {
@@ -64,7 +79,7 @@ macro_rules! lobes {
             let batch = Batch::at($level);
             let run = Scatter(lobe);
             let mut runs: Vec<Run<'_, Draws, Result>> = vec![
-                ("scalar, called".into(), Box::new(|s, out| each(s, out, |v, u| call(&lobe, v, u)))),
+                ("scalar, called".into(), Box::new(|s, out| each_call(&lobe, s, out))),
                 ("scalar, in a loop".into(), Box::new(|s, out| each(s, out, |v, u| lobe.sample(v, u)))),
                 ("precise".into(), Box::new(|s, out| batch.run(run, (s.v(), s.u()), columns(out)).expect("one length"))),
                 ("fast".into(), Box::new(|s, out| {

@@ -73,7 +73,10 @@ impl Slices {
 
 /// Viewers and the three numbers that a sample is drawn from, a slice for each.
 #[derive(Debug)]
-pub struct Draws([Aligned; 6]);
+pub struct Draws {
+    columns: [Aligned; 6],
+    points: Vec<(Vec3, [f32; 3])>,
+}
 
 impl Draws {
     /// `count` of them; one viewer in thirty-two is below the horizon.
@@ -83,19 +86,29 @@ impl Draws {
         let column = |f: fn(&(glam::Vec3, glam::Vec3)) -> f32| Aligned::new(pairs.iter().map(f));
         let mut next = crate::numbers(!seed);
         let mut numbers = || Aligned::new((0..count).map(|_| next()));
-        Self([column(|p| p.1.x), column(|p| p.1.y), column(|p| p.1.z), numbers(), numbers(), numbers()])
+        let columns = [column(|p| p.1.x), column(|p| p.1.y), column(|p| p.1.z), numbers(), numbers(), numbers()];
+        let [vx, vy, vz, u0, u1, u2] = columns.each_ref().map(Aligned::get);
+        let point = |i| (Vec3::new(vx[i], vy[i], vz[i]), [u0[i], u1[i], u2[i]]);
+        let points = (0..count).map(point).collect();
+        Self { columns, points }
     }
 
     /// The directions to the viewer.
     #[must_use]
     pub fn v(&self) -> Vec3<&[f32]> {
-        Vec3::new(self.0[0].get(), self.0[1].get(), self.0[2].get())
+        Vec3::new(self.columns[0].get(), self.columns[1].get(), self.columns[2].get())
     }
 
     /// The three numbers of `[0, 1)`.
     #[must_use]
     pub fn u(&self) -> (&[f32], &[f32], &[f32]) {
-        (self.0[3].get(), self.0[4].get(), self.0[5].get())
+        (self.columns[3].get(), self.columns[4].get(), self.columns[5].get())
+    }
+
+    /// The same, point by point: as they are where they are not made of slices.
+    #[must_use]
+    pub fn points(&self) -> &[(Vec3, [f32; 3])] {
+        &self.points
     }
 }
 

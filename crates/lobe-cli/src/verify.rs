@@ -268,7 +268,7 @@ fn details(outcomes: &[Outcome]) -> String {
         Bound::WORST
     );
     for model in outcomes.iter().map(|o| o.model) {
-        if let Bound::Derived { formula, .. } = model.bound {
+        if let Bound::Excess { formula, .. } | Bound::Derived { formula, .. } = model.bound {
             let _ = writeln!(text, "{:<24} {formula}", model.name);
         }
     }
@@ -305,7 +305,7 @@ fn to_json(outcome: &Outcome) -> Value {
     let found = &outcome.findings;
     let bound = match outcome.model.bound {
         Bound::Constant => json!(Bound::WORST),
-        Bound::Derived { formula, .. } => json!(formula),
+        Bound::Excess { formula, .. } | Bound::Derived { formula, .. } => json!(formula),
     };
     let faults: Vec<_> = found
         .faults

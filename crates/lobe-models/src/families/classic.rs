@@ -1,6 +1,6 @@
 //! Lambert, Phong, Blinn-Phong, and the lecture's highlights.
 
-use super::{constructor, constructors, model};
+use super::{U, constructor, constructors, model};
 use crate::{Bound, Model, Parameter, Reader};
 use lobe::illumination::{BlinnTorranceHighlight, PhongHighlight};
 use lobe::{BlinnPhong, CommonNormalization, Lambert, NormalIncidence, Phong, Vec3};
@@ -71,8 +71,6 @@ constructor! { blinn_phong |p, finish| {
     }
 } }
 
-/// The unit roundoff of `f32`.
-const U: f64 = 1.0 / 16_777_216.0;
 /// `−ln 2⁻¹²⁶`: so far below the peak, and further, a lobe is 0.
 const END: f64 = 126.0 * std::f64::consts::LN_2;
 

@@ -1,7 +1,7 @@
 //! GGX with what single reflections lose: further reflections given back, and diffuse bases under it.
 
 use super::fresnel::{self, any_fresnel};
-use super::{constructor, constructors};
+use super::{U, constructor, constructors};
 use crate::forms::AnyFresnel;
 use crate::{Bound, Model, Number, Parameter, Reader, Value};
 use lobe::{Alpha, MetallicRoughness, Vec3};
@@ -20,7 +20,7 @@ pub(super) static MODELS: &[Model] = &[
         parameters: INTERFACE,
         reciprocal: true,
         finite: true,
-        bound: Bound::Derived {
+        bound: Bound::Excess {
             formula: "2e-5, what microfacet adds for its Fresnel term, and \
                       8u F_ms (w_l (1 − E(v)) + w_v (1 − E(l)))/(π (1 − E_mean) f), \
                       w = x (α² + α (1 − x) + (1 − x)²/2), x ≈ cos θ/(cos θ + α)",
@@ -34,7 +34,7 @@ pub(super) static MODELS: &[Model] = &[
         parameters: INTERFACE,
         reciprocal: false,
         finite: true,
-        bound: Bound::Derived { formula: "2e-5, and what microfacet adds for its Fresnel term", at: interface_bound },
+        bound: Bound::Excess { formula: "2e-5, and what microfacet adds for its Fresnel term", at: interface_bound },
         build: constructors!(turquin),
     },
     Model {
@@ -47,7 +47,7 @@ pub(super) static MODELS: &[Model] = &[
         ],
         reciprocal: false,
         finite: true,
-        bound: Bound::Derived { formula: "2e-5 + 4u (1 − E) (1 − f0)/(π f)", at: fdez_aguera_bound },
+        bound: Bound::Excess { formula: "2e-5 + 4u (1 − E) (1 − f0)/(π f)", at: fdez_aguera_bound },
         build: constructors!(fdez_aguera),
     },
     Model {
@@ -114,7 +114,7 @@ fn kulla_conty_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
         if further == 0.0 { 0.0 } else { further * (w_l * loss_v + w_v * loss_l) / (core::f64::consts::PI * mean * f) }
     };
     let most = [part(f.r, further.r), part(f.g, further.g), part(f.b, further.b)].into_iter().fold(0.0, f64::max);
-    interface_bound(p, l, v) + 8.0 / 16_777_216.0 * most
+    interface_bound(p, l, v) + 8.0 * U * most
 }
 
 fn alpha<R: Number>(p: &Reader<'_, R>) -> Alpha<R> {
@@ -156,6 +156,6 @@ constructor! { pointwise: albedo_coat |p, finish| {
 fn fdez_aguera_bound(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     let (f, f0) = (fdez_aguera::brdf(p).brdf.eval(l, v), p.rgb("f0"));
     let loss = GgxTable::new(alpha(p)).loss(v.z);
-    let part = |f: f64, f0: f64| 4.0 / 16_777_216.0 * loss * (1.0 - f0) / (core::f64::consts::PI * f);
+    let part = |f: f64, f0: f64| 4.0 * U * loss * (1.0 - f0) / (core::f64::consts::PI * f);
     Bound::WORST + [part(f.r, f0.r), part(f.g, f0.g), part(f.b, f0.b)].into_iter().fold(0.0, f64::max)
 }

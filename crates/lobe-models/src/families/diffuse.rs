@@ -1,6 +1,6 @@
 //! Diffuse models other than Lambert's, and sheen.
 
-use super::model;
+use super::{U, model};
 use crate::{Bound, Model, Parameter, Reader};
 use lobe::{Alpha, BurleyDiffuse, Charlie, Eon, Minnaert, OrenNayar, OrenNayarQualitative, PerceptualRoughness, Vec3};
 
@@ -16,7 +16,7 @@ pub(super) fn of_sheen(alpha: f64, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     let s = l + v;
     let t = (s.z * s.z / (s.x * s.x + s.y * s.y)).ln_1p() / (2.0 * alpha);
     // Beyond, `D` is below 2⁻¹²⁶ of its peak.
-    if t < 80.0 { Bound::WORST + 12.0 * t / 16_777_216.0 } else { f64::INFINITY }
+    if t < 80.0 { Bound::WORST + 12.0 * t * U } else { f64::INFINITY }
 }
 
 pub(super) static MODELS: &[Model] = &[

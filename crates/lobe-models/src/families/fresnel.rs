@@ -1,5 +1,6 @@
 //! The forms of `F`, for every model that has one.
 
+use super::U;
 use crate::forms::AnyFresnel;
 use crate::{Number, Parameter, Reader, Value};
 use lobe::fresnel::{
@@ -106,7 +107,6 @@ fn conductor<R: Number>(p: &Reader<'_, R>) -> Conductor<R> {
 /// from `Rs = |c − w|²/|c + w|²` follows `|δRs/Rs| ≤ 2 |δw| (1/|c − w| + 1/|c + w|) ≤ 4 |δw| (c + |w|)/|c² − w²|` with
 /// `c² − w² = 1 − (η + ik)²`, and `Rp/Rs`, which is at most 1, has an absolute error of at most `4 |δw|/|w|`.
 pub(super) fn excess(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
-    const U: f64 = 1.0 / 16_777_216.0;
     let sum = l + v;
     let at = Incidence::from_cos((sum.length_squared().sqrt() / 2.0).min(1.0));
     let f = any_fresnel(p).fresnel(at);

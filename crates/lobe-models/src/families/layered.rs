@@ -1,6 +1,6 @@
 //! glTF 2.0 with its extensions, and coats.
 
-use super::{constructor, constructors};
+use super::{U, constructor, constructors};
 use crate::{Bound, Model, Number, Parameter, Reader, Value};
 use lobe::distribution::{Ggx, GgxAnisotropic};
 use lobe::fresnel::Schlick;
@@ -16,7 +16,7 @@ pub(super) static MODELS: &[Model] = &[
         parameters: GLTF,
         reciprocal: true,
         finite: true,
-        bound: Bound::Derived { formula: OF_BASE, at: gltf_bound },
+        bound: Bound::Excess { formula: OF_BASE, at: gltf_bound },
         build: constructors!(gltf),
     },
     Model {
@@ -25,7 +25,7 @@ pub(super) static MODELS: &[Model] = &[
         parameters: GLTF_CLEARCOAT,
         reciprocal: false,
         finite: true,
-        bound: Bound::Derived { formula: OF_BASE, at: clearcoat_bound },
+        bound: Bound::Excess { formula: OF_BASE, at: clearcoat_bound },
         build: constructors!(gltf_clearcoat),
     },
     Model {
@@ -34,7 +34,7 @@ pub(super) static MODELS: &[Model] = &[
         parameters: GLTF_SHEEN,
         reciprocal: true,
         finite: true,
-        bound: Bound::Derived { formula: "that of gltf + that of charlie + 40u base/f", at: sheen_bound },
+        bound: Bound::Excess { formula: "that of gltf + that of charlie + 40u base/f", at: sheen_bound },
         build: constructors!(gltf_sheen),
     },
     Model {
@@ -52,8 +52,6 @@ pub(super) static MODELS: &[Model] = &[
     },
 ];
 
-/// The unit roundoff of `f32`.
-const U: f64 = 1.0 / 16_777_216.0;
 const UNIT: Parameter = Parameter::number("", 0.0, 1.0, "");
 const GLTF: &[Parameter] = &[
     Parameter::reflectance("base-color", "the base colour"),

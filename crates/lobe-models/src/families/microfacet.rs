@@ -1,7 +1,7 @@
 //! The microfacet model of any terms.
 
-use super::constructors;
 use super::fresnel::{self, any_fresnel};
+use super::{U, constructors};
 #[cfg(feature = "batch")]
 use crate::batch::{AnyBatch, batched, pointwise_any};
 #[cfg(feature = "batch")]
@@ -182,7 +182,6 @@ const FORMULA: &str = "2e-5; beckmann: and 26u t, t = tan²θ_h/α²; blinn, gau
 /// `16u`, which the exponential of Beckmann multiplies with its argument `t`, beside the `10u` of its own; for Blinn and
 /// the Gaussian the azimuth adds as much again; Student's t multiplies it with its exponent.
 fn excess(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
-    const U: f64 = 1.0 / 16_777_216.0;
     let (x, y) = p.widths("alpha");
     let s = l + v;
     let h = s * s.length_squared().sqrt().recip();

@@ -11,6 +11,9 @@ mod physical;
 
 use crate::catalogue::Model;
 
+/// The unit roundoff of `f32`.
+const U: f64 = 1.0 / 16_777_216.0;
+
 /// All families.
 ///
 /// Statics, and no constants: the value of a constant is made anew in every crate that names it, and all constructors and

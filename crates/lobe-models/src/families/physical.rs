@@ -1,5 +1,6 @@
 //! The microfacet models of 1967 to 1981, as their papers have them.
 
+use super::U;
 use crate::families::{constructor, constructors};
 use crate::parameter::TABLE;
 use crate::{AnyTerms, Bound, Kind, Model, Number, Parameter, Reader};
@@ -20,7 +21,7 @@ fn beckmann(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     let (s, m) = (l + v, p.number("m"));
     let t = (s.x * s.x + s.y * s.y) / (s.z * s.z * m * m);
     // Beyond, the exponential is below 2⁻¹²⁶.
-    if t > 87.0 { f64::INFINITY } else { (60.0 + 18.0 * t) / 16_777_216.0 }
+    if t > 87.0 { f64::INFINITY } else { (60.0 + 18.0 * t) * U }
 }
 
 /// The Gaussian's own bound, with the four ulps that each component of `h` is off by.
@@ -28,7 +29,7 @@ const GAUSSIAN: Bound = Bound::Derived { formula: "2e-5 + 52u L of D", at: gauss
 
 fn gaussian(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     let d = Gaussian::new(Alpha(p.number("c")));
-    depth(&d, l, v).map_or(f64::INFINITY, |depth| Bound::WORST + 52.0 * depth / 16_777_216.0)
+    depth(&d, l, v).map_or(f64::INFINITY, |depth| Bound::WORST + 52.0 * depth * U)
 }
 
 /// `|ln(D/D_max)|`, as far as `D` is not 0 in `f32`.
@@ -50,7 +51,7 @@ fn generated(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
         "gtr" => depth(&Gtr::new(alpha, p.number("gamma")), l, v).map(|_| 0.0),
         _ => Some(0.0),
     };
-    depth.map_or(f64::INFINITY, |depth| Bound::WORST + 52.0 * depth / 16_777_216.0)
+    depth.map_or(f64::INFINITY, |depth| Bound::WORST + 52.0 * depth * U)
 }
 
 pub(super) static MODELS: &[Model] = &[
@@ -155,7 +156,7 @@ fn tabulated(p: &Reader<'_, f64>, l: Vec3<f64>, v: Vec3<f64>) -> f64 {
     if value <= f64::from(f32::MIN_POSITIVE) {
         return f64::INFINITY;
     }
-    Bound::WORST + 160.0 * steepest / value / 16_777_216.0
+    Bound::WORST + 160.0 * steepest / value * U
 }
 
 constructor! { facets: generator_of_table |p, finish, table| {

@@ -84,12 +84,6 @@ pub fn models(effort: Effort) -> Suite {
     Catalogue::new(effort).verify(&|| ())
 }
 
-/// [`models`], of one model alone.
-#[must_use]
-pub fn model(model: &Model, effort: Effort) -> Suite {
-    Catalogue::of(model, effort).verify(&|| ())
-}
-
 fn is_of(name: &str, model: &Model) -> bool {
     name.split(' ').next() == Some(model.name)
 }

@@ -43,7 +43,7 @@ mod suite;
 mod variance;
 mod view;
 
-pub use catalogue::{Catalogue, model, models};
+pub use catalogue::{Catalogue, models};
 pub use claims::Claims;
 pub use random::Points;
 pub use report::{Case, Fit, Observed, Outcome, Property, Report, Suite, Verdict, View};
